@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// The only place that names oneTBB's loops.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/task_arena.h>
+
+namespace tracer {
+
+inline int default_thread_count() {
+  return oneapi::tbb::info::default_concurrency();
+}
+
+/// Calls f(begin, end) on parts of [begin, end) of about `grain` elements.
+template <class F>
+void parallel_for_ranges(size_t begin, size_t end, size_t grain, F&& f) {
+  using Range = oneapi::tbb::blocked_range<size_t>;
+  oneapi::tbb::parallel_for(Range(begin, end, grain),
+                            [&](const Range& range) { f(range.begin(), range.end()); });
+}
+
+/// Calls f(i) for each i in [begin, end), one task each.
+template <class F>
+void parallel_for_each_index(size_t begin, size_t end, F&& f) {
+  oneapi::tbb::parallel_for(begin, end, std::forward<F>(f));
+}
+
+template <class F, class G>
+void parallel_invoke(F&& f, G&& g) {
+  oneapi::tbb::parallel_invoke(std::forward<F>(f), std::forward<G>(g));
+}
+
+/// Runs f() and all parallel work below it on exactly `thread_count` threads, which may be more
+/// than there are cores.
+template <class F>
+decltype(auto) with_thread_count(int thread_count, F&& f) {
+  const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
+                                            static_cast<size_t>(thread_count));
+  oneapi::tbb::task_arena arena(thread_count);
+  return arena.execute(std::forward<F>(f));
+}
+
+}  // namespace tracer

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The table of builders. To add one: one file in build/, one line in build.cpp.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "tracer/base/progress.h"
+#include "tracer/bvh/build_settings.h"
+#include "tracer/bvh/tree.h"
+
+namespace tracer {
+
+/// Builds a tree over boxes[0, size), size < 2^31; all boxes finite and not empty. The result is
+/// the same at any number of threads. Throws Cancelled when `progress` is asked to stop.
+using BuildFunction = BvhTree (*)(std::span<const Box> boxes, const BuildSettings& settings,
+                                  Progress& progress);
+
+struct Builder {
+  std::string_view name;   // as on the command line
+  std::string_view label;  // as in the panel
+  std::string_view what;   // one sentence
+  BuildFunction build;
+};
+
+/// The first is the default.
+std::span<const Builder> builders();
+/// nullptr when there is none of that name.
+const Builder* find_builder(std::string_view name);
+
+}  // namespace tracer

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tracer/geometry/box.h"
+
+namespace tracer {
+
+/// 32 bytes. A leaf holds `count` > 0 primitives, BvhTree::primitives[first, first + count). An
+/// inner node has count 0 and its children at nodes[first] and nodes[first + 1].
+struct BvhNode {
+  Box bounds;  // 24 bytes: of all primitives below, bit for bit
+  uint32_t first = 0;
+  uint32_t count = 0;
+
+  bool is_leaf() const { return count > 0; }
+};
+static_assert(sizeof(BvhNode) == 32);
+
+/// A binary tree over primitives. nodes[0] is the root; no primitives, no nodes. Children come
+/// after their parent, in pairs.
+struct BvhTree {
+  std::vector<BvhNode> nodes;
+  std::vector<uint32_t> primitives;
+};
+
+/// Empty when every invariant of the tree over `boxes` holds, else the first that does not, in
+/// words: bounds contain what is below, every primitive in a leaf, no node reached twice, no leaf
+/// deeper than `max_depth` (the root has depth 0).
+std::string validate(const BvhTree& tree, const std::vector<Box>& boxes, int max_depth);
+
+}  // namespace tracer

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tracer/geometry/mesh.h"
+#include "tracer/obj/obj_file.h"
+
+namespace tracer {
+
+struct ObjMesh {
+  Mesh mesh;                  // materials index ObjFile::material_names
+  int64_t dropped_faces = 0;  // with coordinates that are not finite, or without area
+  Warnings warnings;
+};
+
+/// Triangulates (concave polygons by ear clipping in the polygon's own plane), subtracts the
+/// centre of the bounds in double and rounds once to float. Throws LoadError when no triangle is
+/// left, Cancelled when asked to stop.
+ObjMesh make_mesh(const ObjFile& file, const std::string& path, Progress& progress);
+
+}  // namespace tracer

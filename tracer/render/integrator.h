@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// The table of integrators. To add one: one file, one line in integrator.cpp.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "tracer/render/render_settings.h"
+#include "tracer/render/sampler.h"
+#include "tracer/render/world.h"
+
+namespace tracer {
+
+/// Radiance, linear RGB, that arrives along a camera ray: one sample.
+using RadianceFunction = Vec3d (*)(const World& world, RayCaster& rays, const Ray& ray,
+                                   Sampler& sampler, const RenderSettings& settings);
+
+struct Integrator {
+  std::string_view name;   // as on the command line
+  std::string_view label;  // as in the panel
+  std::string_view what;   // one sentence
+  RadianceFunction radiance;
+};
+
+/// The first is the default.
+std::span<const Integrator> integrators();
+/// nullptr when there is none of that name.
+const Integrator* find_integrator(std::string_view name);
+
+}  // namespace tracer

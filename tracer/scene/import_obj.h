@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+
+#include "tracer/base/error.h"
+#include "tracer/base/progress.h"
+#include "tracer/scene/scene.h"
+
+namespace tracer {
+
+struct ImportedScene {
+  Scene scene;  // smooth where the file has normals, else flat
+  bool has_normals = false;
+  uint32_t face_count = 0;    // polygons kept
+  int64_t dropped_faces = 0;  // polygons left out
+  uint32_t object_count = 0;
+  uint32_t group_count = 0;
+  uint64_t file_bytes = 0;
+  Warnings warnings;
+};
+
+/// Reads an OBJ, its material libraries and the textures that used materials name. Paths that
+/// climb out of the model's folder are refused with a warning. Throws LoadError when there is
+/// nothing to show, Cancelled when asked to stop.
+ImportedScene import_obj(const std::filesystem::path& path, Progress& progress);
+
+}  // namespace tracer

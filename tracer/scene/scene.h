@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tracer/geometry/mesh.h"
+#include "tracer/scene/texture.h"
+
+namespace tracer {
+
+inline constexpr uint32_t no_texture = 0xffffffffu;
+
+struct Material {
+  std::string name;
+  Vec3f diffuse{0.8f};                    // reflectance, linear RGB in [0, 1]
+  Vec3f emission{0.0f};                   // radiance, linear RGB, from both sides
+  uint32_t diffuse_texture = no_texture;  // multiplies `diffuse`
+  // Kept for the light of later: Ks, Ns, Ni, d, illum as the MTL has them.
+  Vec3f specular{0.0f};
+  float shininess = 0;
+  float ior = 1;
+  float opacity = 1;
+  int illum = 1;
+};
+
+enum class Shading { flat, smooth };
+
+/// Triangles that emit, to be picked by power.
+struct EmissiveTriangles {
+  std::vector<uint32_t> triangles;
+  std::vector<double> cumulative;     // of power / total power; the last is 1
+  std::vector<double> probabilities;  // of picking each
+  bool empty() const { return triangles.empty(); }
+};
+
+/// What there is to see. The heavy parts are shared between versions of a scene.
+struct Scene {
+  std::shared_ptr<const Mesh> mesh;
+  std::shared_ptr<const std::vector<Material>> materials;  // at least one
+  std::shared_ptr<const std::vector<Texture>> textures;
+  std::shared_ptr<const EmissiveTriangles> lights;
+  Shading shading = Shading::flat;
+  // Smooth shading only: one unit normal a corner by index, as in Mesh.
+  std::shared_ptr<const std::vector<Vec3f>> shading_normals;
+  std::shared_ptr<const std::vector<Vec3u>> shading_normal_indices;
+};
+
+/// The same scene shaded flat or smooth. Smooth takes the file's normals, and where it has none
+/// the angle-weighted mean over the triangles at a position [Thurmer 1998].
+Scene with_shading(const Scene& scene, Shading shading);
+
+/// What shading needs to know of a Hit. Positions are relative to mesh.origin.
+struct Surface {
+  Vec3d position;          // in double, from barycentric weights
+  Vec3d geometric_normal;  // unit length, towards the side that the ray came from
+  Vec3d shading_normal;    // unit length, same side
+  Vec3d albedo;            // linear RGB
+  Vec3d emission;          // radiance towards the ray
+  uint32_t triangle = 0;
+};
+Surface surface_at(const Scene& scene, const Hit& hit, const Vec3d& ray_direction);
+
+/// The float origin of a ray that leaves the surface towards the side of `normal`: moved along it
+/// by more than every rounding of the position, so that the ray starts strictly outside.
+Vec3f offset_origin(const Vec3d& position, const Vec3d& normal);
+
+}  // namespace tracer
