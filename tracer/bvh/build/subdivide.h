@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// What top-down builders share: recursion, leaves, the order of nodes, threads and progress.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <span>
+#include <vector>
+
+#include "tracer/base/parallel.h"
+#include "tracer/base/progress.h"
+#include "tracer/bvh/build_settings.h"
+#include "tracer/bvh/tree.h"
+
+namespace tracer {
+
+/// Positions [begin, end) in a builder's own order of the primitives.
+struct PrimitiveRange {
+  uint32_t begin;
+  uint32_t end;
+
+  uint32_t count() const { return end - begin; }
+};
+
+/// Calls f(i) for each i in the range, looking at the stop flag every few thousand.
+template <class F>
+void for_each_position(PrimitiveRange range, const Progress& progress, F&& f) {
+  constexpr uint32_t positions_a_look = 8192;
+  for (uint32_t begin = range.begin; begin < range.end; begin += positions_a_look) {
+    progress.throw_if_stopped();
+    const uint32_t end = begin + std::min(positions_a_look, range.end - begin);
+    for (uint32_t i = begin; i < end; ++i) f(i);
+  }
+}
+
+/// Splits ranges until they are small or deep enough. A Splitter has, callable at the same time
+/// for disjoint ranges:
+///   Box bounds(PrimitiveRange);
+///   uint32_t split(PrimitiveRange, const Box& bounds, int levels_left);
+///       reorders the range of two or more and returns the first position of the right child, with
+///       at least one primitive on either side; levels_left >= 1 are allowed below the range.
+template <class Splitter>
+class Subdivision {
+ public:
+  Subdivision(Splitter& splitter, uint32_t primitive_count, const BuildSettings& settings,
+              Progress& progress)
+      : splitter_(splitter),
+        primitive_count_(primitive_count),
+        settings_(settings),
+        progress_(progress) {}
+
+  /// Nodes as BvhTree wants them; leaves hold positions.
+  std::vector<BvhNode> nodes() {
+    if (primitive_count_ == 0) return {};
+    return subtree({0, primitive_count_}, 0);
+  }
+
+ private:
+  // Ranges above this size are split in parallel. A function of the range alone, as the order of
+  // nodes depends on it.
+  static constexpr uint32_t task_size = 8192;
+
+  std::vector<BvhNode> subtree(PrimitiveRange range, int depth) {
+    std::vector<BvhNode> nodes(1);
+    if (range.count() > task_size) {
+      subdivide_in_parallel(nodes, range, depth);
+    } else {
+      progress_.throw_if_stopped();
+      subdivide(nodes, 0, range, depth);
+      report_placed(range.count());
+    }
+    return nodes;
+  }
+
+  // Turns nodes[node] into the root over the range and appends what is below it.
+  void subdivide(std::vector<BvhNode>& nodes, uint32_t node, PrimitiveRange range, int depth) {
+    const Box bounds = splitter_.bounds(range);
+    if (is_leaf(range, depth)) {
+      nodes[node] = {bounds, range.begin, range.count()};
+      return;
+    }
+    const uint32_t middle = splitter_.split(range, bounds, settings_.max_depth - depth);
+    const auto children = static_cast<uint32_t>(nodes.size());
+    nodes[node] = {bounds, children, 0};
+    nodes.resize(nodes.size() + 2);
+    subdivide(nodes, children, {range.begin, middle}, depth + 1);
+    subdivide(nodes, children + 1, {middle, range.end}, depth + 1);
+  }
+
+  void subdivide_in_parallel(std::vector<BvhNode>& nodes, PrimitiveRange range, int depth) {
+    const Box bounds = splitter_.bounds(range);
+    if (is_leaf(range, depth)) {
+      nodes[0] = {bounds, range.begin, range.count()};
+      report_placed(range.count());
+      return;
+    }
+    const uint32_t middle = splitter_.split(range, bounds, settings_.max_depth - depth);
+    std::vector<BvhNode> left, right;
+    parallel_invoke(
+        [&] {
+          left = subtree({range.begin, middle}, depth + 1);
+        },
+        [&] {
+          right = subtree({middle, range.end}, depth + 1);
+        });
+    nodes.reserve(1 + left.size() + right.size());
+    nodes[0] = {bounds, 1, 0};
+    nodes.push_back(left[0]);
+    nodes.push_back(right[0]);
+    append_below_root(nodes, 1, left);
+    append_below_root(nodes, 2, right);
+  }
+
+  // Appends all but the root of `subtree`, whose root is at nodes[root] already.
+  static void append_below_root(std::vector<BvhNode>& nodes, uint32_t root,
+                                std::span<const BvhNode> subtree) {
+    const auto shift = static_cast<uint32_t>(nodes.size()) - 1;
+    nodes.insert(nodes.end(), subtree.begin() + 1, subtree.end());
+    if (!nodes[root].is_leaf()) nodes[root].first += shift;
+    for (size_t i = shift + 1; i < nodes.size(); ++i) {
+      if (!nodes[i].is_leaf()) nodes[i].first += shift;
+    }
+  }
+
+  bool is_leaf(PrimitiveRange range, int depth) const {
+    return depth >= settings_.max_depth ||
+           range.count() <= static_cast<uint32_t>(std::max(settings_.leaf_size, 1));
+  }
+
+  void report_placed(uint32_t count) {
+    const uint32_t placed = placed_.fetch_add(count, std::memory_order_relaxed) + count;
+    progress_.set_fraction(static_cast<double>(placed) / primitive_count_);
+  }
+
+  Splitter& splitter_;
+  const uint32_t primitive_count_;
+  const BuildSettings& settings_;
+  Progress& progress_;
+  std::atomic<uint32_t> placed_{0};
+};
+
+}  // namespace tracer
