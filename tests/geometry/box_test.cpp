@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tracer/geometry/box.h"
 
-#include <gtest/gtest.h>
-
 #include <cfloat>
+
+#include <gtest/gtest.h>
 
 namespace tracer {
 namespace {

@@ -13,6 +13,9 @@ constexpr std::array table{
     Builder{"median", "Spatial median",
             "Halves each box across its longest side: quick to build, slow to trace.",
             build_median},
+    Builder{"sweep-sah", "SAH, full sweep",
+            "Takes the plane of least surface area cost of all: slower to build, fast to trace.",
+            build_sweep_sah},
 };
 
 }  // namespace
