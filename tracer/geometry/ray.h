@@ -9,7 +9,7 @@
 namespace tracer {
 
 /// Points origin + t * direction, t_min <= t <= t_max. The direction need not be unit length; t
-/// counts in its lengths. Components are finite, the direction is not zero.
+/// counts in its lengths. Components are finite, the direction is not zero, t_min >= 0.
 struct Ray {
   Vec3f origin{};
   Vec3f direction{};

@@ -9,71 +9,78 @@
 
 namespace tracer {
 
-// Intersect: Hit(uint32_t primitive, const Ray&), no_primitive in it for a miss.
-
 namespace recursive_detail {
 
 template <class Intersect>
-void closest_hit(const BvhTree& tree, const BvhNode& node, const Ray& ray, Intersect& intersect,
-                 Hit& best) {
-  if (node.is_leaf()) {
-    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const Hit hit = intersect(tree.primitives[i], ray);
-      if (hit.is_hit() && hit.is_closer_than(best)) best = hit;
-    }
-    return;
-  }
-  const BvhNode* near = &tree.nodes[node.first];
-  const BvhNode* far = near + 1;
-  auto [near_entry, near_exit] = near->bounds.intersect(ray);
-  auto [far_entry, far_exit] = far->bounds.intersect(ray);
-  if (far_entry < near_entry) {
-    std::swap(near, far);
-    std::swap(near_entry, far_entry);
-    std::swap(near_exit, far_exit);
-  }
-  // Equal distances are visited: the lower primitive may be in the far child.
-  if (near_entry <= near_exit && near_entry <= best.t && near_entry <= ray.t_max) {
-    closest_hit(tree, *near, ray, intersect, best);
-  }
-  if (far_entry <= far_exit && far_entry <= best.t && far_entry <= ray.t_max) {
-    closest_hit(tree, *far, ray, intersect, best);
-  }
-}
+class Traversal {
+ public:
+  Traversal(const BvhTree& tree, const Ray& ray, Intersect& intersect)
+      : tree_(tree), ray_(ray), slabs_(ray), intersect_(intersect) {}
 
-template <class Intersect>
-bool occluded(const BvhTree& tree, const BvhNode& node, const Ray& ray, Intersect& intersect) {
-  const auto [entry, exit] = node.bounds.intersect(ray);
-  if (!(entry <= exit) || entry > ray.t_max) return false;
-  if (node.is_leaf()) {
+  bool enters(const BvhNode& node) const { return is_ahead(node.bounds.intersect(slabs_)); }
+
+  void find_closest(const BvhNode& node, Hit& best) const {
+    if (node.is_leaf()) {
+      for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+        const Hit hit = intersect_(tree_.primitives[i], ray_);
+        if (hit.is_hit() && hit.is_closer_than(best)) best = hit;
+      }
+      return;
+    }
+    const BvhNode* near = &tree_.nodes[node.first];
+    const BvhNode* far = near + 1;
+    auto near_span = near->bounds.intersect(slabs_);
+    auto far_span = far->bounds.intersect(slabs_);
+    if (far_span.first < near_span.first) {
+      std::swap(near, far);
+      std::swap(near_span, far_span);
+    }
+    // Equal distances are visited: the lower primitive may be in the far child.
+    if (is_ahead(near_span) && near_span.first <= best.t) find_closest(*near, best);
+    if (is_ahead(far_span) && far_span.first <= best.t) find_closest(*far, best);
+  }
+
+  bool find_any(const BvhNode& node) const {
+    if (!enters(node)) return false;
+    if (!node.is_leaf()) {
+      return find_any(tree_.nodes[node.first]) || find_any(tree_.nodes[node.first + 1]);
+    }
     for (uint32_t i = node.first; i < node.first + node.count; ++i) {
-      if (intersect(tree.primitives[i], ray).is_hit()) return true;
+      if (intersect_(tree_.primitives[i], ray_).is_hit()) return true;
     }
     return false;
   }
-  return occluded(tree, tree.nodes[node.first], ray, intersect) ||
-         occluded(tree, tree.nodes[node.first + 1], ray, intersect);
-}
+
+ private:
+  // Whether [entry, exit] is no miss and reaches into [t_min, t_max].
+  bool is_ahead(const std::pair<double, double>& span) const {
+    return span.first <= span.second && span.first <= ray_.t_max && span.second >= ray_.t_min;
+  }
+
+  const BvhTree& tree_;
+  const Ray& ray_;
+  const RaySlabs slabs_;
+  Intersect& intersect_;
+};
 
 }  // namespace recursive_detail
 
-/// The closest hit within [ray.t_min, ray.t_max]; intersect(primitive, ray) returns a Hit in that
-/// range or a miss.
+/// The closest hit within [ray.t_min, ray.t_max], t_min >= 0. Intersect is
+/// Hit(uint32_t primitive, const Ray&): a hit in that range, or one without a primitive for a miss.
 template <class Intersect>
 Hit closest_hit_recursive(const BvhTree& tree, const Ray& ray, Intersect&& intersect) {
   Hit best;
   if (tree.nodes.empty()) return best;
-  const auto [entry, exit] = tree.nodes[0].bounds.intersect(ray);
-  if (entry <= exit && entry <= ray.t_max) {
-    recursive_detail::closest_hit(tree, tree.nodes[0], ray, intersect, best);
-  }
+  const recursive_detail::Traversal traversal(tree, ray, intersect);
+  if (traversal.enters(tree.nodes[0])) traversal.find_closest(tree.nodes[0], best);
   return best;
 }
 
-/// Whether anything lies within [ray.t_min, ray.t_max].
+/// Whether anything lies within [ray.t_min, ray.t_max], t_min >= 0.
 template <class Intersect>
 bool occluded_recursive(const BvhTree& tree, const Ray& ray, Intersect&& intersect) {
-  return !tree.nodes.empty() && recursive_detail::occluded(tree, tree.nodes[0], ray, intersect);
+  if (tree.nodes.empty()) return false;
+  return recursive_detail::Traversal(tree, ray, intersect).find_any(tree.nodes[0]);
 }
 
 }  // namespace tracer
