@@ -103,6 +103,8 @@ class Subdivision {
         [&] {
           right = subtree({middle, range.end}, depth + 1);
         });
+    // Tasks are skipped, without an exception here, once one elsewhere has thrown.
+    if (left.empty() || right.empty()) throw Cancelled{};
     nodes.reserve(1 + left.size() + right.size());
     nodes[0] = {bounds, 1, 0};
     nodes.push_back(left[0]);

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "tracer/bvh/build.h"
+
+#include <cstring>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/test_meshes.h"
+#include "tracer/base/parallel.h"
+#include "tracer/bvh/metrics.h"
+
+namespace tracer {
+namespace {
+
+BvhTree build(const Builder& builder, const std::vector<Box>& boxes,
+              const BuildSettings& settings) {
+  Progress progress;
+  return builder.build(boxes, settings, progress);
+}
+
+Box box_at(const Vec3f& center, float half_size) {
+  return {center - half_size, center + half_size};
+}
+
+std::vector<Box> clustered_boxes(uint32_t count) {
+  // Each cluster a thousandth of the one before: the middle of the box parts few of them.
+  RandomSource random(1);
+  std::vector<Box> boxes;
+  for (uint32_t i = 0; i < count; ++i) {
+    const float scale = std::exp2(-10.0f * static_cast<float>(i % 10));
+    boxes.push_back(box_at(scale * random.vector(0, 1), 0.01f * scale));
+  }
+  return boxes;
+}
+
+std::vector<std::pair<std::string, std::vector<Box>>> box_sets() {
+  RandomSource random(2);
+  std::vector<Box> concentric, huge, line;
+  for (int i = 0; i < 300; ++i) {
+    concentric.push_back(box_at(Vec3f(0), static_cast<float>(i)));
+    huge.push_back({Vec3f(-3e38f) * random.unit(), Vec3f(3e38f) * random.unit()});
+    line.push_back(box_at(Vec3f(static_cast<float>(i), 0, 0), 0));
+  }
+  return {
+      {"none", {}},
+      {"one", {box_at(Vec3f(1), 1)}},
+      {"two", {box_at(Vec3f(1), 1), box_at(Vec3f(-1), 1)}},
+      {"soup", primitive_boxes(random_soup(5000, 0.05f, 3))},
+      {"many", primitive_boxes(random_soup(40000, 0.01f, 4))},
+      {"identical", std::vector<Box>(1000, box_at(Vec3f(2), 1))},
+      {"concentric", concentric},
+      {"huge", huge},
+      {"line of points", line},
+      {"lattice", primitive_boxes(lattice_quads(500, 5))},
+      {"clustered", clustered_boxes(3000)},
+  };
+}
+
+TEST(Builders, every_tree_is_valid_for_all_settings) {
+  for (const auto& [name, boxes] : box_sets()) {
+    for (const Builder& builder : builders()) {
+      for (const int max_depth : {1, 5, 30, 64}) {
+        for (const int leaf_size : {1, 4, 64}) {
+          const BvhTree tree = build(builder, boxes, {max_depth, leaf_size});
+          ASSERT_EQ(validate(tree, boxes, max_depth), "")
+              << builder.name << ", " << name << ", depth " << max_depth << ", leaf " << leaf_size;
+        }
+      }
+    }
+  }
+}
+
+TEST(Builders, leaves_are_small_where_the_depth_allows) {
+  for (const auto& [name, boxes] : box_sets()) {
+    // Halving space needs more levels than there are to part what spans thirty octaves.
+    if (name == "clustered") continue;
+    for (const Builder& builder : builders()) {
+      for (const int leaf_size : {1, 4, 64}) {
+        const TreeMetrics metrics = measure(build(builder, boxes, {64, leaf_size}));
+        EXPECT_LE(metrics.largest_leaf, leaf_size) << builder.name << ", " << name;
+      }
+    }
+  }
+}
+
+TEST(Builders, nodes_of_leaf_size_are_not_split) {
+  const std::vector<Box> boxes = primitive_boxes(random_soup(64, 0.05f, 3));
+  for (const Builder& builder : builders()) {
+    EXPECT_EQ(build(builder, boxes, {30, 64}).nodes.size(), 1u);
+    EXPECT_EQ(build(builder, boxes, {30, 63}).nodes.size(), 3u);
+  }
+}
+
+TEST(Builders, a_million_identical_boxes_are_halved_without_wasting_depth) {
+  const std::vector<Box> boxes(1 << 20, box_at(Vec3f(2), 1));
+  for (const Builder& builder : builders()) {
+    const BvhTree tree = build(builder, boxes, {64, 4});
+    EXPECT_EQ(measure(tree).depth, 18) << builder.name;
+    EXPECT_EQ(validate(tree, boxes, 18), "") << builder.name;
+  }
+}
+
+TEST(Builders, sweep_sah_reaches_the_leaf_size_whenever_the_depth_could) {
+  const std::vector<Box> boxes = clustered_boxes(3072);
+  EXPECT_GT(measure(build(*find_builder("median"), boxes, {10, 3})).largest_leaf, 3u);
+  EXPECT_EQ(measure(build(*find_builder("sweep-sah"), boxes, {10, 3})).largest_leaf, 3u);
+}
+
+TEST(Builders, sweep_sah_costs_less_than_the_median) {
+  const std::vector<Box> boxes = primitive_boxes(rough_ball(40, 0.02f, 1));
+  EXPECT_LT(measure(build(*find_builder("sweep-sah"), boxes, {})).sah_cost,
+            measure(build(*find_builder("median"), boxes, {})).sah_cost);
+}
+
+TEST(Builders, median_halves_across_the_longest_side) {
+  // Centres at 1, 2, 3 and 9 along y; the middle of the box lies at 5.
+  std::vector<Box> boxes;
+  for (const float y : {3.0f, 9.0f, 1.0f, 2.0f}) boxes.push_back(box_at({0, y, 0}, 1));
+  const BvhTree tree = build(*find_builder("median"), boxes, {1, 1});
+  ASSERT_EQ(tree.nodes.size(), 3u);
+  EXPECT_EQ(tree.nodes[1].count, 3u);
+  ASSERT_EQ(tree.nodes[2].count, 1u);
+  EXPECT_EQ(tree.primitives[tree.nodes[2].first], 1u);
+}
+
+TEST(Builders, median_splits_centres_that_all_lie_on_one_side_of_the_box) {
+  // One large box whose centre is left of the middle, as are all others.
+  std::vector<Box> boxes{{Vec3f(-100, -1, -1), Vec3f(60, 1, 1)}};
+  for (const float x : {-99.0f, -98.0f, -97.0f}) boxes.push_back(box_at({x, 0, 0}, 0.1f));
+  boxes.push_back(box_at({-30, 0, 0}, 90));
+  const BvhTree tree = build(*find_builder("median"), boxes, {30, 1});
+  EXPECT_EQ(validate(tree, boxes, 4), "");
+}
+
+bool are_same(const BvhTree& a, const BvhTree& b) {
+  return a.primitives == b.primitives && a.nodes.size() == b.nodes.size() &&
+         std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(BvhNode)) == 0;
+}
+
+TEST(Builders, trees_have_the_same_bits_at_any_number_of_threads) {
+  const std::vector<Box> boxes = primitive_boxes(random_soup(100000, 0.01f, 6));
+  for (const Builder& builder : builders()) {
+    const auto build_with = [&](int thread_count) {
+      return with_thread_count(thread_count, [&] { return build(builder, boxes, {}); });
+    };
+    const BvhTree reference = build_with(1);
+    EXPECT_TRUE(are_same(build_with(2), reference)) << builder.name;
+    EXPECT_TRUE(are_same(build_with(7), reference)) << builder.name;
+  }
+}
+
+TEST(Builders, a_build_asked_to_stop_throws_cancelled) {
+  const std::vector<Box> boxes = primitive_boxes(random_soup(100000, 0.01f, 6));
+  for (const Builder& builder : builders()) {
+    Progress progress;
+    progress.request_stop();
+    EXPECT_THROW(builder.build(boxes, {}, progress), Cancelled) << builder.name;
+  }
+}
+
+TEST(Builders, a_build_in_flight_stops_soon_after_it_is_asked) {
+  const std::vector<Box> boxes = primitive_boxes(random_soup(1000000, 0.01f, 6));
+  for (const Builder& builder : builders()) {
+    Progress progress;
+    std::thread watcher([&] {
+      while (progress.fraction() < 0.2f) std::this_thread::yield();
+      progress.request_stop();
+    });
+    EXPECT_THROW(builder.build(boxes, {}, progress), Cancelled) << builder.name;
+    watcher.join();
+    EXPECT_LT(progress.fraction(), 0.9f) << builder.name;
+  }
+}
+
+TEST(Builders, progress_ends_at_one) {
+  const std::vector<Box> boxes = primitive_boxes(random_soup(30000, 0.01f, 6));
+  for (const Builder& builder : builders()) {
+    for (const int max_depth : {1, 30}) {
+      Progress progress;
+      builder.build(boxes, {.max_depth = max_depth}, progress);
+      EXPECT_EQ(progress.fraction(), 1) << builder.name;
+    }
+  }
+}
+
+TEST(Builders, are_found_by_their_own_name_alone) {
+  for (const Builder& builder : builders()) EXPECT_EQ(find_builder(builder.name), &builder);
+  EXPECT_EQ(find_builder("no such builder"), nullptr);
+  EXPECT_EQ(find_builder(""), nullptr);
+}
+
+}  // namespace
+}  // namespace tracer
