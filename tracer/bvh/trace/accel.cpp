@@ -10,8 +10,10 @@ namespace {
 // Triangles that brute force meets between two looks at the stop flag: some 20 microseconds.
 constexpr uint32_t triangles_a_look = 1024;
 
-auto triangle_intersector(const Mesh& mesh) {
-  return [&mesh](uint32_t primitive, const Ray& ray) {
+// A miss once `stop` is requested: a tree's leaf may hold millions of triangles.
+auto triangle_intersector(const Mesh& mesh, const StopFlag& stop) {
+  return [&mesh, &stop](uint32_t primitive, const Ray& ray) {
+    if (stop.requested()) return Hit{};
     const Vec3u& index = mesh.triangles[primitive];
     const auto hit = intersect_triangle(ray, mesh.positions[index.x], mesh.positions[index.y],
                                         mesh.positions[index.z]);
@@ -23,7 +25,7 @@ auto triangle_intersector(const Mesh& mesh) {
 
 Hit RayCaster::closest_hit(const Ray& ray) {
   ++ray_count_;
-  const auto intersect = triangle_intersector(*accel_.mesh);
+  const auto intersect = triangle_intersector(*accel_.mesh, stop_);
   if (accel_.tree) return closest_hit_recursive(*accel_.tree, ray, intersect);
   Hit best;
   for (uint32_t i = 0; i < accel_.mesh->triangle_count(); ++i) {
@@ -36,7 +38,7 @@ Hit RayCaster::closest_hit(const Ray& ray) {
 
 bool RayCaster::occluded(const Ray& ray) {
   ++ray_count_;
-  const auto intersect = triangle_intersector(*accel_.mesh);
+  const auto intersect = triangle_intersector(*accel_.mesh, stop_);
   if (accel_.tree) return occluded_recursive(*accel_.tree, ray, intersect);
   for (uint32_t i = 0; i < accel_.mesh->triangle_count(); ++i) {
     if (i % triangles_a_look == 0 && stop_.requested()) return false;
