@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "tracer/bvh/trace/accel.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "tracer/bvh/trace/recursive.h"
+#include "tracer/bvh/trace/wide_kernels.h"
 #include "tracer/geometry/triangle.h"
 
 namespace tracer {
@@ -21,10 +25,44 @@ auto triangle_intersector(const Mesh& mesh, const StopFlag& stop) {
   };
 }
 
+void lay_out_wide(Accel& accel) {
+  const int width = wide_kernel_width();
+  if (width > 0 && accel.tree && !accel.tree->nodes.empty()) {
+    accel.wide = std::make_shared<const WideTree>(build_wide_tree(*accel.tree, *accel.mesh, width));
+  }
+}
+
+void keep_binary(Accel&) {}
+
+constexpr Layout layout_table[] = {
+    {"wide", "Wide nodes, SIMD", "All children of a node and all triangles of a leaf at once",
+     lay_out_wide},
+    {"binary", "Binary, recursive", "The readable reference: near child first, then the far one",
+     keep_binary},
+};
+
 }  // namespace
+
+std::span<const Layout> layouts() {
+  return layout_table;
+}
+
+const Layout* find_layout(std::string_view name) {
+  const auto found = std::ranges::find(layout_table, name, &Layout::name);
+  return found == std::end(layout_table) ? nullptr : found;
+}
+
+Accel make_accel(std::shared_ptr<const Mesh> mesh, std::optional<BvhTree> tree,
+                 const Layout& layout) {
+  Accel accel{std::move(mesh), std::move(tree)};
+  layout.lay_out(accel);
+  return accel;
+}
 
 Hit RayCaster::closest_hit(const Ray& ray) {
   ++ray_count_;
+  if (accel_.wide && is_in_kernel_range(*accel_.wide, ray))
+    return closest_hit_wide(*accel_.wide, ray);
   const auto intersect = triangle_intersector(*accel_.mesh, stop_);
   if (accel_.tree) return closest_hit_recursive(*accel_.tree, ray, intersect);
   Hit best;
@@ -38,6 +76,7 @@ Hit RayCaster::closest_hit(const Ray& ray) {
 
 bool RayCaster::occluded(const Ray& ray) {
   ++ray_count_;
+  if (accel_.wide && is_in_kernel_range(*accel_.wide, ray)) return occluded_wide(*accel_.wide, ray);
   const auto intersect = triangle_intersector(*accel_.mesh, stop_);
   if (accel_.tree) return occluded_recursive(*accel_.tree, ray, intersect);
   for (uint32_t i = 0; i < accel_.mesh->triangle_count(); ++i) {

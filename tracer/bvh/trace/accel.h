@@ -4,19 +4,40 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string_view>
 
 #include "tracer/base/progress.h"
+#include "tracer/bvh/layout/wide_tree.h"
 #include "tracer/bvh/tree.h"
 #include "tracer/geometry/mesh.h"
 
 namespace tracer {
 
 /// Everything that answers a ray: a mesh, and a tree over its triangles or none. Without a tree
-/// each ray meets every triangle. Both answer with the same bits.
+/// each ray meets every triangle. All ways answer with the same bits.
 struct Accel {
   std::shared_ptr<const Mesh> mesh;
   std::optional<BvhTree> tree;
+  std::shared_ptr<const WideTree> wide = nullptr;  // the tree again, as the SIMD kernels take it
 };
+
+/// A way to lay out and traverse a tree. To add one: its files, and one line in accel.cpp.
+struct Layout {
+  std::string_view name;   // as on the command line
+  std::string_view label;  // as in the panel
+  std::string_view what;   // one sentence
+  void (*lay_out)(Accel& accel);
+};
+
+/// The first is the default.
+std::span<const Layout> layouts();
+/// nullptr when there is none of that name.
+const Layout* find_layout(std::string_view name);
+
+/// `tree` is over primitive_boxes(*mesh); nullopt for brute force.
+Accel make_accel(std::shared_ptr<const Mesh> mesh, std::optional<BvhTree> tree,
+                 const Layout& layout);
 
 /// Answers the rays of one tile or one test on one thread, and counts them. When `stop` is
 /// requested, answers may be misses: the caller looks at the flag before it keeps a result.

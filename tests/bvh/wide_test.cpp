@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/instruction_sets.h"
+#include "tests/support/random_source.h"
+#include "tests/support/test_meshes.h"
+#include "tracer/bvh/build.h"
+#include "tracer/bvh/trace/accel.h"
+#include "tracer/bvh/trace/wide_kernels.h"
+
+namespace tracer {
+namespace {
+
+Mesh scaled(Mesh mesh, float factor) {
+  for (Vec3f& position : mesh.positions) position *= factor;
+  return make_test_mesh(mesh.positions, mesh.triangles);
+}
+
+Mesh teapot_in_a_stadium() {
+  Mesh mesh = moved(scaled(random_soup(2000, 0.1f, 3), 1e-3f), {3, 2, 1});
+  const auto first = static_cast<uint32_t>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), {{-1e4f, 0, -1e4f}, {1e4f, 0, -1e4f}, {0, 0, 1e4f}});
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  return make_test_mesh(mesh.positions, mesh.triangles);
+}
+
+// Aims at interiors, edges and vertices, also along axes, from on the surface to far away.
+Ray aimed_ray(const Mesh& mesh, RandomSource& random) {
+  const auto last = static_cast<int>(mesh.triangle_count()) - 1;
+  const Vec3u& triangle = mesh.triangles[static_cast<size_t>(random.integer(0, last))];
+  const Vec3f a = mesh.positions[triangle.x];
+  const Vec3f to_b = mesh.positions[triangle.y] - a;
+  const Vec3f to_c = mesh.positions[triangle.z] - a;
+  const float s = random.unit();
+  const float r = random.unit() * (1 - s);
+  const Vec3f targets[] = {a, a + s * to_b, a + s * to_b + r * to_c};
+  const float distances[] = {0, 1, 30, 1000};
+  const float distance =
+      static_cast<float>(glm::length(Vec3d(to_b))) * distances[random.integer(0, 3)];
+  Vec3f direction = random.vector(-1, 1);
+  if (random.integer(0, 3) == 0) direction[random.integer(0, 2)] = 0;
+  if (random.integer(0, 7) == 0) direction = {0, random.integer(0, 1) ? -0.0f : 0.0f, -1};
+  if (direction == Vec3f(0)) direction = {0, 1, 0};
+  Ray ray{.origin = targets[random.integer(0, 2)] - distance * direction, .direction = direction};
+  if (random.integer(0, 3) == 0) ray.t_max = static_cast<double>(random.unit()) * 2 * distance;
+  return ray;
+}
+
+void expect_the_bits_of_the_reference(Mesh mesh_value, const BuildSettings& settings = {}) {
+  const auto mesh = std::make_shared<const Mesh>(std::move(mesh_value));
+  const std::vector<Box> boxes = primitive_boxes(*mesh);
+  const StopFlag stop;
+  int sets = 0;
+  for (const Builder& builder : builders()) {
+    Progress progress;
+    const BvhTree tree = builder.build(boxes, settings, progress);
+    const Accel binary = make_accel(mesh, tree, *find_layout("binary"));
+    RayCaster reference(binary, stop);
+    for_each_instruction_set([&](const std::string& name) {
+      const Accel wide = make_accel(mesh, tree, *find_layout("wide"));
+      ASSERT_TRUE(wide.wide && !binary.wide);
+      RayCaster kernel(wide, stop);
+      RandomSource random(11);
+      int hits = 0;
+      for (int i = 0; i < 8000; ++i) {
+        const Ray ray = aimed_ray(*mesh, random);
+        const Hit expected = reference.closest_hit(ray);
+        const Hit hit = kernel.closest_hit(ray);
+        ASSERT_EQ(hit.primitive, expected.primitive) << name << ' ' << builder.name << " ray " << i;
+        ASSERT_EQ(hit.t, expected.t) << name << ' ' << builder.name << " ray " << i;
+        ASSERT_EQ(hit.u, expected.u);
+        ASSERT_EQ(hit.v, expected.v);
+        ASSERT_EQ(kernel.occluded(ray), expected.is_hit()) << name << " ray " << i;
+        hits += hit.is_hit();
+      }
+      EXPECT_GT(hits, 2000) << name;
+      ++sets;
+    });
+  }
+  if (sets == 0) GTEST_SKIP() << "no SIMD kernel for this processor";
+}
+
+TEST(Wide, gives_the_bits_of_the_reference_on_a_soup) {
+  for (const BuildSettings settings : {BuildSettings{30, 4}, {1, 1}, {64, 1}, {5, 64}}) {
+    expect_the_bits_of_the_reference(random_soup(2000, 0.2f, 1), settings);
+  }
+}
+
+TEST(Wide, gives_the_bits_of_the_reference_on_a_closed_surface) {
+  expect_the_bits_of_the_reference(rough_ball(20, 0.1f, 2));
+}
+
+TEST(Wide, gives_the_bits_of_the_reference_far_from_the_origin) {
+  expect_the_bits_of_the_reference(moved(random_soup(2000, 0.1f, 3), {1e5f, -2e5f, 3e4f}));
+}
+
+TEST(Wide, gives_the_bits_of_the_reference_at_any_scale) {
+  for (const float scale : {0x1p-120f, 0x1p-44f, 1e-12f, 1e-6f, 1e6f, 1e12f, 1e30f}) {
+    expect_the_bits_of_the_reference(scaled(random_soup(1000, 0.1f, 4), scale));
+  }
+}
+
+TEST(Wide, gives_the_bits_of_the_reference_on_axis_parallel_quads_that_coincide) {
+  expect_the_bits_of_the_reference(lattice_quads(1000, 5));
+}
+
+TEST(Wide, gives_the_lowest_of_coincident_triangles) {
+  expect_the_bits_of_the_reference(repeated(random_soup(20, 1, 6), 30));
+}
+
+TEST(Wide, gives_the_bits_of_the_reference_on_a_teapot_in_a_stadium) {
+  expect_the_bits_of_the_reference(teapot_in_a_stadium());
+}
+
+TEST(Wide, gives_the_bits_of_the_reference_on_one_triangle) {
+  expect_the_bits_of_the_reference(random_soup(1, 1, 7));
+}
+
+}  // namespace
+}  // namespace tracer

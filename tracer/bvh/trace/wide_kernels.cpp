@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "tracer/bvh/trace/wide_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tracer/bvh/trace/wide_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "tracer/bvh/trace/wide_traverse-inl.h"
+
+#if HWY_ONCE
+#include <algorithm>
+#include <cmath>
+
+namespace tracer {
+namespace {
+HWY_EXPORT(KernelWidth);
+HWY_EXPORT(ClosestHit);
+HWY_EXPORT(Occluded);
+}  // namespace
+
+int wide_kernel_width() {
+  return HWY_DYNAMIC_DISPATCH(KernelWidth)();
+}
+
+bool is_in_kernel_range(const WideTree& tree, const Ray& ray) {
+  const auto largest = [](const Vec3f& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  };
+  const float direction = largest(ray.direction);
+  return direction > 0x1p-40f && direction < 0x1p40f && largest(ray.origin) < 0x1p40f &&
+         tree.max_coordinate < 0x1p40f;
+}
+
+Hit closest_hit_wide(const WideTree& tree, const Ray& ray) {
+  return HWY_DYNAMIC_DISPATCH(ClosestHit)(tree, ray);
+}
+
+bool occluded_wide(const WideTree& tree, const Ray& ray) {
+  return HWY_DYNAMIC_DISPATCH(Occluded)(tree, ray);
+}
+
+}  // namespace tracer
+#endif

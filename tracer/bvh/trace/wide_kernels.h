@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tracer/bvh/layout/wide_tree.h"
+#include "tracer/geometry/ray.h"
+
+namespace tracer {
+
+/// Lanes of the widest instructions that this processor has and there are kernels for: 16, 8 or 4;
+/// 0 where there is no kernel for it and the recursive reference must answer.
+int wide_kernel_width();
+
+/// Whether no product of the filter over or underflows: coordinates and directions between 2^-40
+/// and 2^40. Other rays and scenes are the recursive reference's.
+bool is_in_kernel_range(const WideTree& tree, const Ray& ray);
+
+/// The closest hit, and whether there is any: the same bits as the recursive reference gives over
+/// the same triangles. `tree.width` equals wide_kernel_width().
+Hit closest_hit_wide(const WideTree& tree, const Ray& ray);
+bool occluded_wide(const WideTree& tree, const Ray& ray);
+
+}  // namespace tracer
