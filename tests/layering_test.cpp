@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The folders are the architecture: an include may point sideways or down, never up.
 #include <map>
-#include <regex>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include "tests/support/pattern.h"
 #include "tests/support/source_files.h"
 
 namespace tracer {
@@ -50,15 +50,13 @@ std::string fault(const std::string& file, const std::string& included) {
 }
 
 TEST(Layering, no_include_runs_upward) {
-  static const std::regex include(R"re(#\s*include\s*["<]([^">]+)[">])re");
+  const Pattern include("#[[:space:]]*include[[:space:]]*[\"<]([^\">]+)[\">]");
   int include_count = 0;
   for (const char* folder : {"tracer", "app"}) {
     for (const SourceFile& file : source_files(folder)) {
-      const std::sregex_iterator end;
-      for (std::sregex_iterator match(file.text.begin(), file.text.end(), include); match != end;
-           ++match) {
+      for (const std::string& included : include.first_groups(file.text)) {
         ++include_count;
-        EXPECT_EQ(fault(file.path, (*match)[1]), "") << file.path << " includes " << (*match)[1];
+        EXPECT_EQ(fault(file.path, included), "") << file.path << " includes " << included;
       }
     }
   }
@@ -93,9 +91,9 @@ TEST(Layering, only_parallel_names_tbb) {
 // Sizes of models differ by many orders of magnitude: what is small is a matter of proportion, and
 // bounds that are derived are written as powers of two.
 bool has_absolute_epsilon(const std::string& line) {
-  static const std::regex small_literal(
-      R"((^|[^\w.])(\d+\.?\d*[eE]-\d+|0?\.00\d*[1-9])|_EPSILON|epsilon\(\))");
-  return std::regex_search(line.substr(0, line.find("//")), small_literal);
+  static const Pattern small_literal(
+      "(^|[^[:alnum:]_.])([0-9]+[.]?[0-9]*[eE]-[0-9]+|0?[.]00[0-9]*[1-9])|_EPSILON|epsilon\\(\\)");
+  return !small_literal.first_groups(line.substr(0, line.find("//"))).empty();
 }
 
 TEST(Layering, geometry_and_bvh_know_no_absolute_epsilon) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <regex>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include "tests/support/pattern.h"
 #include "tests/support/source_files.h"
 
 namespace tracer {
@@ -11,12 +11,9 @@ namespace {
 
 // "[Wald 2007]", "[IEC 61966-2-1]": a capital, words, and a number of four digits or more.
 std::set<std::string> source_keys(const std::string& text) {
-  static const std::regex key(R"(\[([A-Z][^\[\]]* [0-9]{4}[^\[\] ]*)\])");
-  std::set<std::string> keys;
-  for (std::sregex_iterator match(text.begin(), text.end(), key), end; match != end; ++match) {
-    keys.insert((*match)[1]);
-  }
-  return keys;
+  static const Pattern key("\\[([A-Z][^][]* [0-9]{4}[^][ ]*)\\]");
+  const std::vector<std::string> keys = key.first_groups(text);
+  return {keys.begin(), keys.end()};
 }
 
 std::string references() {
@@ -40,12 +37,11 @@ TEST(References, every_key_in_the_sources_is_listed) {
 }
 
 TEST(References, are_listed_once_each_in_alphabetical_order) {
-  static const std::regex entry(R"(\n- \*\*\[([^\]]+)\]\*\*)");
-  const std::string text = references();
+  const Pattern entry("\n- [*][*]\\[([^]]+)\\][*][*]");
   std::string previous;
-  for (std::sregex_iterator match(text.begin(), text.end(), entry), end; match != end; ++match) {
-    EXPECT_LT(previous, (*match)[1].str());
-    previous = (*match)[1];
+  for (const std::string& key : entry.first_groups(references())) {
+    EXPECT_LT(previous, key);
+    previous = key;
   }
   EXPECT_NE(previous, "");
 }
