@@ -2,6 +2,7 @@
 // The only place that names oneTBB's loops.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <utility>
 
@@ -30,6 +31,17 @@ void parallel_for_ranges(size_t begin, size_t end, size_t grain, F&& f) {
 template <class F>
 void parallel_for_each_index(size_t begin, size_t end, F&& f) {
   oneapi::tbb::parallel_for(begin, end, std::forward<F>(f));
+}
+
+/// Calls f(i) for each i in [0, count), handed out one by one in that order: the first are begun
+/// first.
+template <class F>
+void parallel_in_order(size_t count, F&& f) {
+  std::atomic<size_t> next{0};
+  const int worker_count = oneapi::tbb::this_task_arena::max_concurrency();
+  oneapi::tbb::parallel_for(0, worker_count, [&](int) {
+    for (size_t i = next++; i < count; i = next++) f(i);
+  });
 }
 
 template <class F, class G>

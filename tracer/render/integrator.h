@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "tracer/render/render_settings.h"
@@ -15,11 +16,17 @@ namespace tracer {
 using RadianceFunction = Vec3d (*)(const World& world, RayCaster& rays, const Ray& ray,
                                    Sampler& sampler, const RenderSettings& settings);
 
+/// The same sample, with its path appended to `text`, a line a vertex.
+using DescribeFunction = Vec3d (*)(const World& world, RayCaster& rays, const Ray& ray,
+                                   Sampler& sampler, const RenderSettings& settings,
+                                   std::string& text);
+
 struct Integrator {
   std::string_view name;   // as on the command line
   std::string_view label;  // as in the panel
   std::string_view what;   // one sentence
   RadianceFunction radiance;
+  DescribeFunction describe;
 };
 
 /// The first is the default.

@@ -26,22 +26,25 @@ struct CameraFrame {
   Vec2d center_px{};   // the optical axis, in pixels
 };
 
-/// `size_px` at least 1x1. All in double; the origin is rounded once.
+/// `size_px` at least 1x1; fov is brought into [1e-6, 179.9]. All in double; the origin is rounded
+/// once.
 CameraFrame make_camera_frame(const Camera& camera, Vec2i size_px, const Vec3d& mesh_origin);
 
 /// The ray through image point (x, y) in pixels, (0, 0) the upper left corner of the upper left
 /// pixel. Unit length up to one rounding.
 Ray camera_ray(const CameraFrame& frame, const Vec2d& image_point_px);
 
-/// A three-quarter view that shows all of `bounds` (relative to `mesh_origin`) with a small
-/// margin. `up` is the world's up axis, see guess_up.
+/// The view along `view_direction`, from the eye into the scene, that shows all of `bounds`
+/// (relative to `mesh_origin`) with a margin of some 5 %. `aspect` is width / height. `up` is the
+/// world's up axis, see guess_up.
 Camera frame_box(const Box& bounds, const Vec3d& mesh_origin, const Vec3d& view_direction,
                  const Vec3d& up, double fov_degrees, double aspect);
 
 /// +Y, but +Z for what lies flat in z, as terrain in survey coordinates does.
 Vec3d guess_up(const Box& bounds);
 
-/// The view that a model opens in.
+/// The three-quarter view that a model opens in: from the front, right and above, and from
+/// further above where the model is flat.
 Camera default_camera(const Box& bounds, const Vec3d& mesh_origin, double aspect);
 
 }  // namespace tracer

@@ -36,6 +36,10 @@ struct EmissiveTriangles {
   bool empty() const { return triangles.empty(); }
 };
 
+/// Triangles of materials that emit, ascending. A triangle's power is its area times the luminance
+/// of its emission; both sides emit.
+EmissiveTriangles make_emissive_triangles(const Mesh& mesh, const std::vector<Material>& materials);
+
 /// What there is to see. The heavy parts are shared between versions of a scene.
 struct Scene {
   std::shared_ptr<const Mesh> mesh;
@@ -43,7 +47,8 @@ struct Scene {
   std::shared_ptr<const std::vector<Texture>> textures;
   std::shared_ptr<const EmissiveTriangles> lights;
   Shading shading = Shading::flat;
-  // Smooth shading only: one unit normal a corner by index, as in Mesh.
+  // Smooth shading only: one unit normal a corner by index, as in Mesh; zero where the triangles
+  // around a position cancel out, and the geometric normal stands in.
   std::shared_ptr<const std::vector<Vec3f>> shading_normals;
   std::shared_ptr<const std::vector<Vec3u>> shading_normal_indices;
 };
@@ -52,19 +57,33 @@ struct Scene {
 /// the angle-weighted mean over the triangles at a position [Thurmer 1998].
 Scene with_shading(const Scene& scene, Shading shading);
 
+/// A mesh's triangle in double.
+struct Triangle {
+  Vec3d v0, v1, v2;
+  Vec3d at(double u, double v) const { return (1 - u - v) * v0 + u * v1 + v * v2; }
+  /// Of twice the area's length, right-handed about v0 v1 v2.
+  Vec3d area_normal() const { return glm::cross(v1 - v0, v2 - v0); }
+  double area() const { return 0.5 * glm::length(area_normal()); }
+};
+Triangle triangle_at(const Mesh& mesh, uint32_t triangle);
+
+/// How far along its unit normal a ray must leave a triangle to start strictly outside, even when
+/// its origin is then rounded to float.
+double clearance_of(const Triangle& triangle, const Vec3d& normal);
+
 /// What shading needs to know of a Hit. Positions are relative to mesh.origin.
 struct Surface {
   Vec3d position;          // in double, from barycentric weights
   Vec3d geometric_normal;  // unit length, towards the side that the ray came from
   Vec3d shading_normal;    // unit length, same side
-  Vec3d albedo;            // linear RGB
+  Vec3d albedo;            // linear RGB in [0, 1]
   Vec3d emission;          // radiance towards the ray
+  double clearance = 0;    // of the triangle along geometric_normal
   uint32_t triangle = 0;
 };
 Surface surface_at(const Scene& scene, const Hit& hit, const Vec3d& ray_direction);
 
-/// The float origin of a ray that leaves the surface towards the side of `normal`: moved along it
-/// by more than every rounding of the position, so that the ray starts strictly outside.
-Vec3f offset_origin(const Vec3d& position, const Vec3d& normal);
+/// The float origin of a ray that leaves the surface towards the side of geometric_normal.
+Vec3f offset_origin(const Surface& surface);
 
 }  // namespace tracer

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Sines, cosines and angles from +, *, / and sqrt alone: the same bits with every C library.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+namespace tracer {
+
+struct CosSin {
+  double cos = 1;
+  double sin = 0;
+};
+
+/// Cosine and sine of 2 pi `turns`, |turns| < 2^50, each within 1e-15. Exact at whole quarters.
+inline CosSin cos_sin_of_turns(double turns) {
+  const double quarters = std::floor(4 * turns + 0.5);
+  // In [-pi/4, pi/4]; the subtraction is exact.
+  const double angle = (turns - 0.25 * quarters) * (2 * std::numbers::pi);
+  const double square = angle * angle;
+  double sin_series = 1;
+  double cos_series = 1;
+  for (int power = 18; power >= 2; power -= 2) {
+    sin_series = 1 - square / (power * (power + 1.0)) * sin_series;
+    cos_series = 1 - square / (power * (power - 1.0)) * cos_series;
+  }
+  const double sin = angle * sin_series;
+  const double cos = cos_series;
+  switch (static_cast<int>(quarters - 4 * std::floor(0.25 * quarters))) {
+    case 0:
+      return {cos, sin};
+    case 1:
+      return {-sin, cos};
+    case 2:
+      return {-cos, -sin};
+    default:
+      return {sin, -cos};
+  }
+}
+
+/// Tangent of half of an angle in degrees, 0 <= angle < 180.
+inline double tan_half_degrees(double degrees) {
+  const CosSin half = cos_sin_of_turns(degrees / 720);
+  return half.sin / half.cos;
+}
+
+/// The angle of the vector (x, y), y >= 0, from the x axis, in [0, pi] radians, within 1e-15; 0 for
+/// (0, 0).
+inline double angle_of(double x, double y) {
+  if (x < 0) return std::numbers::pi / 2 + angle_of(y, -x);
+  if (y == 0) return 0;
+  // Adding its length to x halves the vector's angle, here to pi / 16 at most.
+  for (int halving = 0; halving < 3; ++halving) x += std::sqrt(x * x + y * y);
+  const double tangent = y / x;
+  const double square = tangent * tangent;
+  double series = 1.0 / 23;
+  for (int power = 21; power >= 1; power -= 2) series = 1.0 / power - square * series;
+  return 8 * tangent * series;
+}
+
+}  // namespace tracer

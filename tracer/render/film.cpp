@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "tracer/render/film.h"
+
+#include <algorithm>
+
+#include "tracer/base/parallel.h"
+
+namespace tracer {
+
+std::vector<Tile> make_tiles(Vec2i size_px) {
+  std::vector<Tile> tiles;
+  for (int y = 0; y < size_px.y; y += tile_size_px) {
+    for (int x = 0; x < size_px.x; x += tile_size_px) {
+      tiles.push_back(
+          {x, y, std::min(x + tile_size_px, size_px.x), std::min(y + tile_size_px, size_px.y)});
+    }
+  }
+  const auto distance = [&](const Tile& tile) {
+    const double dx = static_cast<double>(tile.x0) + tile.x1 - size_px.x;
+    const double dy = static_cast<double>(tile.y0) + tile.y1 - size_px.y;
+    return dx * dx + dy * dy;
+  };
+  std::stable_sort(tiles.begin(), tiles.end(),
+                   [&](const Tile& a, const Tile& b) { return distance(a) < distance(b); });
+  return tiles;
+}
+
+Film::Film(Vec2i size_px)
+    : size_px_(size_px),
+      sums_(static_cast<size_t>(size_px.x) * size_px.y),
+      counts_(static_cast<size_t>(size_px.x) * size_px.y) {}
+
+Vec3f Film::mean(int x, int y) const {
+  for (const int stride : {1, 2, 4, 8}) {
+    const size_t pixel = index(x - x % stride, y - y % stride);
+    if (counts_[pixel] > 0) return Vec3f(sums_[pixel] / static_cast<double>(counts_[pixel]));
+  }
+  return Vec3f(0);
+}
+
+Image Film::image() const {
+  Image image{size_px_, std::vector<Vec3f>(sums_.size())};
+  parallel_for_ranges(0, static_cast<size_t>(size_px_.y), 16, [&](size_t begin, size_t end) {
+    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+      for (int x = 0; x < size_px_.x; ++x) image.pixels[index(x, y)] = mean(x, y);
+    }
+  });
+  return image;
+}
+
+void Film::clear() {
+  std::fill(sums_.begin(), sums_.end(), Vec3d(0));
+  std::fill(counts_.begin(), counts_.end(), 0);
+}
+
+}  // namespace tracer

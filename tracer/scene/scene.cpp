@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "tracer/scene/scene.h"
+
+#include "tracer/base/directions.h"
+#include "tracer/geometry/ray.h"
+
+namespace tracer {
+namespace {
+
+Vec3d diffuse_color(const Scene& scene, const Material& material, const Hit& hit) {
+  const Mesh& mesh = *scene.mesh;
+  Vec3d color(material.diffuse);
+  if (!mesh.colors.empty()) {
+    const Vec3u& corner = mesh.triangles[hit.primitive];
+    const Triangle colors{Vec3d(mesh.colors[corner.x]), Vec3d(mesh.colors[corner.y]),
+                          Vec3d(mesh.colors[corner.z])};
+    color *= colors.at(hit.u, hit.v);
+  }
+  if (material.diffuse_texture == no_texture || mesh.texcoord_indices.empty()) return color;
+  const Vec3u& corner = mesh.texcoord_indices[hit.primitive];
+  if (corner.x == no_index || corner.y == no_index || corner.z == no_index) return color;
+  const Vec2d uv = (1 - hit.u - hit.v) * Vec2d(mesh.texcoords[corner.x]) +
+                   hit.u * Vec2d(mesh.texcoords[corner.y]) +
+                   hit.v * Vec2d(mesh.texcoords[corner.z]);
+  return color * Vec3d(eval_texture((*scene.textures)[material.diffuse_texture], Vec2f(uv)));
+}
+
+/// The interpolated normal on the side of `geometric_normal`, or that where there is none.
+Vec3d shading_normal(const Scene& scene, const Hit& hit, const Vec3d& geometric_normal) {
+  if (scene.shading == Shading::flat) return geometric_normal;
+  const std::vector<Vec3f>& normals = *scene.shading_normals;
+  const Vec3u& corner = (*scene.shading_normal_indices)[hit.primitive];
+  const Triangle corners{Vec3d(normals[corner.x]), Vec3d(normals[corner.y]),
+                         Vec3d(normals[corner.z])};
+  const Vec3d normal = unit_or(corners.at(hit.u, hit.v), geometric_normal);
+  return glm::dot(normal, geometric_normal) < 0 ? -normal : normal;
+}
+
+}  // namespace
+
+Triangle triangle_at(const Mesh& mesh, uint32_t triangle) {
+  const Vec3u& corner = mesh.triangles[triangle];
+  return {Vec3d(mesh.positions[corner.x]), Vec3d(mesh.positions[corner.y]),
+          Vec3d(mesh.positions[corner.z])};
+}
+
+// With m the largest |coordinates| of the corners, n the normal and u = 2^-24, distances from the
+// plane are at most
+//   u n.m     for rounding the origin to float, which moves it by u |p_i| <= u m_i an axis;
+//   4 u n.m   for a neighbour that was coplanar (a quad's other half) before its corners and ours
+//             were rounded to float: u n.m for each of four corners;
+//   2^-49 |m| for computing the position and the normal in double, some ten roundings, unless the
+//             triangle's sides are within 2^-20 of parallel.
+// 6 u n.m + 2^-46 |m| exceeds their sum. Where the plane passes exactly through an axis (n.m = 0)
+// float coordinates hold the second term exactly enough: they are finest near 0.
+double clearance_of(const Triangle& triangle, const Vec3d& normal) {
+  const Vec3d largest =
+      glm::max(glm::abs(triangle.v0), glm::max(glm::abs(triangle.v1), glm::abs(triangle.v2)));
+  return 6 * 0x1p-24 * glm::dot(glm::abs(normal), largest) +
+         0x1p-46 * (largest.x + largest.y + largest.z);
+}
+
+Surface surface_at(const Scene& scene, const Hit& hit, const Vec3d& ray_direction) {
+  const Triangle triangle = triangle_at(*scene.mesh, hit.primitive);
+  const Material& material = (*scene.materials)[scene.mesh->material_of(hit.primitive)];
+  const Vec3d back = unit_or(-ray_direction, {0, 0, 1});
+  const Vec3d normal = unit_or(triangle.area_normal(), back);
+  Surface surface;
+  surface.position = triangle.at(hit.u, hit.v);
+  surface.geometric_normal = glm::dot(normal, back) < 0 ? -normal : normal;
+  surface.shading_normal = shading_normal(scene, hit, surface.geometric_normal);
+  surface.albedo = glm::clamp(diffuse_color(scene, material, hit), 0.0, 1.0);
+  surface.emission = Vec3d(material.emission);
+  surface.clearance = clearance_of(triangle, surface.geometric_normal);
+  surface.triangle = hit.primitive;
+  return surface;
+}
+
+Vec3f offset_origin(const Surface& surface) {
+  return Vec3f(surface.position + surface.clearance * surface.geometric_normal);
+}
+
+}  // namespace tracer
