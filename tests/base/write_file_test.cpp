@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "tracer/base/write_file.h"
+
+#include <fstream>
+#include <iterator>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "tracer/base/error.h"
+
+namespace tracer {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class WriteFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("write_file_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  fs::path folder_;
+};
+
+TEST_F(WriteFile, replaces_what_was_there_and_leaves_nothing_beside_it) {
+  write_file(folder_ / "a.txt", "first");
+  write_file(folder_ / "a.txt", std::string_view("two\0", 4));
+  EXPECT_EQ(bytes_of(folder_ / "a.txt"), std::string("two\0", 4));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+}
+
+TEST_F(WriteFile, refuses_directories_devices_and_missing_folders_in_words) {
+  EXPECT_THROW(write_file(folder_, "x"), LoadError);
+  EXPECT_THROW(write_file(folder_ / "none" / "a.txt", "x"), LoadError);
+  EXPECT_THROW(write_file("/dev/null", "x"), LoadError);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST_F(WriteFile, keeps_a_link_and_replaces_what_it_points_to) {
+  write_file(folder_ / "real.txt", "old");
+  fs::create_symlink("real.txt", folder_ / "link.txt");
+  write_file(folder_ / "link.txt", "new");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link.txt"));
+  EXPECT_EQ(bytes_of(folder_ / "real.txt"), "new");
+}
+
+}  // namespace
+}  // namespace tracer
