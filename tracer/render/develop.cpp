@@ -61,6 +61,19 @@ constexpr std::array<uint8_t, end_bucket - first_bucket> make_bucket_codes() {
 
 constexpr auto bucket_codes = make_bucket_codes();
 
+/// encode_srgb for inlining, without branches, as noise is not to be predicted: the bits of floats
+/// are ordered as integers, negative ones below all others.
+inline uint8_t nearest_code(float linear) {
+  constexpr int32_t least = std::bit_cast<int32_t>(0x1p-13f);
+  constexpr int32_t most = std::bit_cast<int32_t>(1.0f) - 1;
+  const int32_t bits = std::clamp(std::bit_cast<int32_t>(linear), least, most);
+  const size_t below = bucket_codes[(static_cast<uint32_t>(bits) >> bucket_shift) - first_bucket];
+  const size_t code =
+      below + static_cast<size_t>(std::bit_cast<float>(bits) >= thresholds[below + 1]);
+  const bool is_number = !std::isnan(linear);
+  return static_cast<uint8_t>(code * static_cast<size_t>(is_number));
+}
+
 /// 2^x from +, * and powers of two, so that files have the same bytes everywhere.
 float exp2_portable(double x) {
   const double whole = std::floor(x + 0.5);
@@ -73,12 +86,7 @@ float exp2_portable(double x) {
 }  // namespace
 
 uint8_t encode_srgb(float linear) {
-  // Written so that NaN fails.
-  if (!(linear >= 0x1p-13f)) return 0;
-  if (linear >= 1.0f) return 255;
-  const uint32_t bucket = std::bit_cast<uint32_t>(linear) >> bucket_shift;
-  const uint8_t code = bucket_codes[bucket - first_bucket];
-  return static_cast<uint8_t>(code + (linear >= thresholds[static_cast<size_t>(code) + 1] ? 1 : 0));
+  return nearest_code(linear);
 }
 
 void develop(std::span<const Vec3f> radiance, double exposure, std::span<Rgba8> out) {
@@ -86,8 +94,8 @@ void develop(std::span<const Vec3f> radiance, double exposure, std::span<Rgba8> 
   const float scale = exp2_portable(std::clamp(exposure, -100.0, 100.0));
   for (size_t i = 0; i < radiance.size(); ++i) {
     const Vec3f& pixel = radiance[i];
-    out[i] = {encode_srgb(pixel.x * scale), encode_srgb(pixel.y * scale),
-              encode_srgb(pixel.z * scale), 255};
+    out[i] = {nearest_code(pixel.x * scale), nearest_code(pixel.y * scale),
+              nearest_code(pixel.z * scale), 255};
   }
 }
 
