@@ -188,5 +188,21 @@ TEST(Path, smooth_shading_lets_no_light_through_the_surface) {
   for (int i = 0; i < 32 * 32; ++i) ASSERT_EQ(film.mean(i % 32, i / 32), Vec3f(0));
 }
 
+TEST(Path, nothing_leaks_through_the_sharp_edges_of_a_closed_tetrahedron) {
+  const Vec3f a(-1, -1, -1), b(3, -0.9f, -1.1f), c(2.8f, 0.1f, -1), d(2.9f, -0.5f, 0.1f);
+  Triangles triangles;
+  triangles.add(a, b, c);
+  triangles.add(a, b, d);
+  triangles.add(b, c, d);
+  triangles.add(a, c, d);
+  World world = test::make_world(triangles, {diffuse(0.95)}, Vec3d(1e9));
+  // Close to the sharpest corner, where every path is close to edges.
+  const Vec3d to_center = Vec3d(0.25f * (a + b + c + d) - a);
+  const Camera camera{.eye = Vec3d(a) + 0.01 * to_center, .target = Vec3d(a), .fov_degrees = 140};
+  test::set_camera(world, camera, {128, 128});
+  const Film film = test::render(world, path(), {.bounces = 32}, {128, 128}, 20);
+  for (int i = 0; i < 128 * 128; ++i) ASSERT_EQ(film.mean(i % 128, i / 128), Vec3f(0));
+}
+
 }  // namespace
 }  // namespace tracer

@@ -36,6 +36,28 @@ Vec3d shading_normal(const Scene& scene, const Hit& hit, const Vec3d& geometric_
   return glm::dot(normal, geometric_normal) < 0 ? -normal : normal;
 }
 
+/// A point of the triangle near `position`, at least `distance` from its edges where it is that
+/// large. Rays that start there are not pushed through the neighbour across an edge.
+Vec3d keep_off_edges(const Triangle& triangle, const Hit& hit, const Vec3d& position,
+                     double distance) {
+  const double twice_area = 2 * triangle.area();
+  Vec3d weights(1 - hit.u - hit.v, hit.u, hit.v);
+  const Vec3d opposite_sides(glm::length(triangle.v2 - triangle.v1),
+                             glm::length(triangle.v0 - triangle.v2),
+                             glm::length(triangle.v1 - triangle.v0));
+  bool is_clear = true;
+  for (int i = 0; i < 3; ++i) {
+    // The height over a side is twice_area / side.
+    const double least = std::min(distance * opposite_sides[i] / twice_area, 0.25);
+    if (weights[i] >= least) continue;
+    weights[i] = least;
+    is_clear = false;
+  }
+  if (is_clear) return position;
+  weights /= weights.x + weights.y + weights.z;
+  return triangle.at(weights.y, weights.z);
+}
+
 }  // namespace
 
 Triangle triangle_at(const Mesh& mesh, uint32_t triangle) {
@@ -66,12 +88,15 @@ Surface surface_at(const Scene& scene, const Hit& hit, const Vec3d& ray_directio
   const Vec3d back = unit_or(-ray_direction, {0, 0, 1});
   const Vec3d normal = unit_or(triangle.area_normal(), back);
   Surface surface;
-  surface.position = triangle.at(hit.u, hit.v);
   surface.geometric_normal = glm::dot(normal, back) < 0 ? -normal : normal;
   surface.shading_normal = shading_normal(scene, hit, surface.geometric_normal);
   surface.albedo = glm::clamp(diffuse_color(scene, material, hit), 0.0, 1.0);
   surface.emission = Vec3d(material.emission);
   surface.clearance = clearance_of(triangle, surface.geometric_normal);
+  // What offset_origin may move the point sideways, for neighbours at angles of 15 degrees or more.
+  const Vec3d position = triangle.at(hit.u, hit.v);
+  const double rounding = 0x1p-24 * glm::dot(glm::abs(position), Vec3d(1));
+  surface.position = keep_off_edges(triangle, hit, position, 4 * (surface.clearance + rounding));
   surface.triangle = hit.primitive;
   return surface;
 }

@@ -73,7 +73,7 @@ double clearance_of(const Triangle& triangle, const Vec3d& normal);
 
 /// What shading needs to know of a Hit. Positions are relative to mesh.origin.
 struct Surface {
-  Vec3d position;          // in double, from barycentric weights
+  Vec3d position;          // in double, from barycentric weights, a hair off the edges
   Vec3d geometric_normal;  // unit length, towards the side that the ray came from
   Vec3d shading_normal;    // unit length, same side
   Vec3d albedo;            // linear RGB in [0, 1]
