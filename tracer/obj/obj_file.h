@@ -34,7 +34,7 @@ struct ObjFace {
 /// correctly rounded doubles of the text; they may be infinite or NaN where the text is.
 struct ObjFile {
   std::vector<Vec3d> positions;
-  std::vector<Vec3f> colors;  // empty, or one a position: RGB as written after x y z
+  std::vector<Vec3f> colors;  // empty, or one a position: RGB as written, NaN where there is none
   std::vector<Vec2f> texcoords;
   std::vector<Vec3f> normals;
   std::vector<ObjCorner> corners;

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "tracer/obj/parse_mtl.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "tracer/obj/text_cursor.h"
+
+namespace tracer {
+namespace {
+
+/// Options of a texture map and how many words follow each; numbers after the first may be missing.
+struct MapOption {
+  std::string_view name;
+  int word_count;
+};
+constexpr std::array map_options{
+    MapOption{"-blendu", 1}, MapOption{"-blendv", 1},     MapOption{"-boost", 1},
+    MapOption{"-mm", 2},     MapOption{"-o", 3},          MapOption{"-s", 3},
+    MapOption{"-t", 3},      MapOption{"-texres", 1},     MapOption{"-clamp", 1},
+    MapOption{"-bm", 1},     MapOption{"-imfchan", 1},    MapOption{"-type", 1},
+    MapOption{"-cc", 1},     MapOption{"-colorspace", 1},
+};
+
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return result;
+}
+
+class MtlParser {
+ public:
+  MtlParser(std::string_view bytes, const std::string& path) : cursor_(bytes), path_(path) {}
+
+  MtlFile parse() {
+    while (cursor_.next_statement()) {
+      parse_statement(lower_case(cursor_.token()));
+      cursor_.finish_statement();
+    }
+    return std::move(file_);
+  }
+
+ private:
+  void parse_statement(const std::string& keyword) {
+    if (keyword == "newmtl") {
+      MtlMaterial material;
+      material.name = cursor_.name();
+      file_.materials.push_back(std::move(material));
+      has_opacity_ = false;
+    } else if (is_value(keyword)) {
+      if (file_.materials.empty()) {
+        warn(keyword + " stands before the first newmtl");
+      } else {
+        parse_value(keyword, file_.materials.back());
+      }
+    }
+  }
+
+  static bool is_value(const std::string& keyword) {
+    constexpr std::array<std::string_view, 9> known{"kd", "ks", "ke",    "ns",    "ni",
+                                                    "d",  "tr", "illum", "map_kd"};
+    return std::find(known.begin(), known.end(), keyword) != known.end();
+  }
+
+  void parse_value(const std::string& keyword, MtlMaterial& material) {
+    if (keyword == "kd") {
+      parse_color(keyword, material.kd);
+    } else if (keyword == "ks") {
+      parse_color(keyword, material.ks);
+    } else if (keyword == "ke") {
+      parse_color(keyword, material.ke);
+    } else if (keyword == "ns") {
+      parse_number(keyword, material.ns);
+    } else if (keyword == "ni") {
+      parse_number(keyword, material.ni);
+    } else if (keyword == "illum") {
+      parse_illum(material);
+    } else if (keyword == "map_kd") {
+      parse_map(material.map_kd);
+    } else {
+      parse_opacity(keyword, material.d);
+    }
+  }
+
+  /// One number stands for all three.
+  void parse_color(const std::string& keyword, Vec3f& color) {
+    Vec3f parsed;
+    if (!parse_number(keyword, parsed.x)) return;
+    parsed.y = parsed.z = parsed.x;
+    if (!cursor_.at_statement_end()) {
+      if (!parse_number(keyword, parsed.y) || !parse_number(keyword, parsed.z)) return;
+    }
+    color = parsed;
+  }
+
+  /// Leaves `number` as it is, and warns, where there is no finite one.
+  bool parse_number(const std::string& keyword, float& number) {
+    if (cursor_.at_statement_end()) {
+      warn(keyword + ": a number is missing");
+      return false;
+    }
+    const std::string_view token = cursor_.peek_token();
+    const std::optional<double> parsed = cursor_.number();
+    if (!parsed || !std::isfinite(static_cast<float>(*parsed))) {
+      warn(keyword + ": " + quote_text(token) + " is not a finite number");
+      return false;
+    }
+    number = static_cast<float>(*parsed);
+    return true;
+  }
+
+  void parse_illum(MtlMaterial& material) {
+    float number = 0;
+    if (!parse_number("illum", number)) return;
+    material.illum = static_cast<int>(std::clamp(number, 0.0f, 10.0f));
+  }
+
+  /// d = 1 - Tr; where a material has both, exporters disagree on Tr and d counts.
+  void parse_opacity(const std::string& keyword, float& opacity) {
+    if (!cursor_.at_statement_end() && cursor_.peek_token() == "-halo") cursor_.token();
+    float number = 0;
+    if (!parse_number(keyword, number)) return;
+    if (keyword == "d") {
+      opacity = number;
+      has_opacity_ = true;
+    } else if (!has_opacity_) {
+      opacity = 1 - number;
+    }
+  }
+
+  void parse_map(std::string& path) {
+    while (!cursor_.at_statement_end() && skip_option()) {
+    }
+    path = cursor_.name();
+    if (path.empty()) warn("map_kd: the path is missing");
+  }
+
+  bool skip_option() {
+    const std::string name = lower_case(cursor_.peek_token());
+    const auto option = std::find_if(map_options.begin(), map_options.end(),
+                                     [&](const MapOption& known) { return known.name == name; });
+    if (option == map_options.end()) return false;
+    cursor_.token();
+    for (int i = 0; i < option->word_count && !cursor_.at_statement_end(); ++i) {
+      if (i == 0) {
+        cursor_.token();
+      } else if (!cursor_.number()) {
+        break;
+      }
+    }
+    return true;
+  }
+
+  void warn(const std::string& what) {
+    file_.warnings.add({path_, cursor_.statement_line(), what});
+  }
+
+  TextCursor cursor_;
+  const std::string& path_;
+  MtlFile file_;
+  bool has_opacity_ = false;
+};
+
+}  // namespace
+
+MtlFile parse_mtl(std::string_view bytes, const std::string& path) {
+  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+  return MtlParser(bytes, path).parse();
+}
+
+}  // namespace tracer
