@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "tracer/scene/import_obj.h"
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.h"
+
+namespace tracer {
+namespace {
+
+const std::string square = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+const std::string textured_face = "f 1/1 2/2 3/3 4/4\n";
+const std::string white_ppm = "P6\n1 1\n255\n\xff\xff\xff";
+
+ImportedScene import(const std::filesystem::path& path) {
+  Progress progress;
+  return import_obj(path, progress);
+}
+
+std::string load_error(const std::filesystem::path& path) {
+  try {
+    import(path);
+  } catch (const LoadError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string warning(const ImportedScene& imported, size_t index) {
+  const auto& messages = imported.warnings.messages();
+  return index < messages.size() ? messages[index].text() : "";
+}
+
+TEST(ImportObj, joins_mesh_materials_and_textures) {
+  const TemporaryFolder folder;
+  folder.write(
+      "sub/a.mtl",
+      "newmtl red\nKd 1 0 0\nmap_Kd ..\\tex\\white.ppm\nnewmtl lamp\nKd 2 -1 0.5\nKe 3 2 1\n"
+      "newmtl unused\nmap_Kd missing.png\n");
+  folder.write("tex/white.ppm", white_ppm);
+  const auto path =
+      folder.write("x.obj", square + "mtllib sub\\a.mtl\no square\ng a\nf 1 2 3\nusemtl red\n" +
+                                textured_face + "usemtl lamp\nf 2 3 4\nf 1 2 3 4\n");
+  const ImportedScene imported = import(path);
+  EXPECT_EQ(imported.warnings.count(), 0) << warning(imported, 0);
+  EXPECT_EQ(imported.face_count, 4u);
+  EXPECT_EQ(imported.dropped_faces, 0);
+  EXPECT_EQ(imported.object_count, 1u);
+  EXPECT_EQ(imported.group_count, 1u);
+  EXPECT_EQ(imported.file_bytes, std::filesystem::file_size(path));
+
+  const std::vector<Material>& materials = *imported.scene.materials;
+  ASSERT_EQ(materials.size(), 3u);
+  EXPECT_EQ(materials[0].diffuse, Vec3f(0.8f));
+  EXPECT_EQ(materials[1].name, "red");
+  EXPECT_EQ(materials[1].diffuse, Vec3f(1, 0, 0));
+  EXPECT_EQ(materials[1].diffuse_texture, 0u);
+  EXPECT_EQ(materials[2].diffuse, Vec3f(1, 0, 0.5f));
+  EXPECT_EQ(materials[2].emission, Vec3f(3, 2, 1));
+  EXPECT_EQ(materials[2].diffuse_texture, no_texture);
+  ASSERT_EQ(imported.scene.textures->size(), 1u);
+  EXPECT_EQ(imported.scene.textures->at(0).texels.at(0), Vec3f(1));
+  EXPECT_EQ(imported.scene.mesh->material_of(0), 0u);
+  EXPECT_EQ(imported.scene.mesh->material_of(1), 1u);
+  EXPECT_EQ(imported.scene.mesh->material_of(3), 2u);
+  EXPECT_EQ(imported.scene.lights->triangles, (std::vector<uint32_t>{3, 4, 5}));
+}
+
+TEST(ImportObj, is_smooth_where_the_file_has_normals_and_flat_elsewhere) {
+  const TemporaryFolder folder;
+  const ImportedScene flat = import(folder.write("flat.obj", square + "f 1 2 3\n"));
+  EXPECT_FALSE(flat.has_normals);
+  EXPECT_EQ(flat.scene.shading, Shading::flat);
+  const ImportedScene smooth =
+      import(folder.write("smooth.obj", square + "vn 0 0 1\nf 1//1 2//1 3//1\n"));
+  EXPECT_TRUE(smooth.has_normals);
+  EXPECT_EQ(smooth.scene.shading, Shading::smooth);
+}
+
+TEST(ImportObj, a_missing_library_is_a_warning_and_its_materials_are_grey) {
+  const TemporaryFolder folder;
+  const auto path = folder.write(
+      "x.obj", square + "mtllib no.mtl\nusemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\n");
+  const ImportedScene imported = import(path);
+  EXPECT_EQ(imported.warnings.count(), 2);
+  EXPECT_EQ(warning(imported, 0), path.string() +
+                                      ": material library: " + (folder.path() / "no.mtl").string() +
+                                      ": No such file or directory");
+  EXPECT_EQ(warning(imported, 1),
+            path.string() +
+                ": material 'a' and 2 more: in no material library, shown in the default grey");
+  EXPECT_EQ(imported.scene.materials->at(3).diffuse, Vec3f(0.8f));
+}
+
+TEST(ImportObj, libraries_are_read_in_order_and_the_first_definition_counts) {
+  const TemporaryFolder folder;
+  folder.write("a.mtl", "newmtl m\nKd 1 0 0\nnewmtl m\nKd 0 1 0\n");
+  folder.write("my b.mtl", "newmtl m\nKd 0 0 1\nnewmtl Material #2\nKd 0 0 1\n");
+  const ImportedScene imported = import(
+      folder.write("x.obj", "mtllib a.mtl my b.mtl\nmtllib a.mtl\n" + square +
+                                "usemtl m #comment\nf 1 2 3\nusemtl Material #2\nf 1 2 3\n"));
+  EXPECT_EQ(imported.warnings.count(), 0) << warning(imported, 0);
+  EXPECT_EQ(imported.scene.materials->at(1).diffuse, Vec3f(1, 0, 0));
+  EXPECT_EQ(imported.scene.materials->at(2).diffuse, Vec3f(0, 0, 1));
+}
+
+TEST(ImportObj, paths_that_leave_the_models_folder_are_refused) {
+  const TemporaryFolder folder;
+  folder.write("secret.mtl", "newmtl m\nKd 1 0 0\n");
+  folder.write("white.ppm", white_ppm);
+  const std::string absolute = (folder.path() / "secret.mtl").string();
+  for (const std::string& library :
+       {absolute, std::string("../secret.mtl"), std::string("sub\\..\\..\\secret.mtl"),
+        std::string("C:\\secret.mtl")}) {
+    const auto path =
+        folder.write("model/x.obj", "mtllib " + library + "\n" + square + "usemtl m\nf 1 2 3\n");
+    const ImportedScene imported = import(path);
+    EXPECT_NE(warning(imported, 0).find("is refused: paths must stay in the model's folder"),
+              std::string::npos)
+        << warning(imported, 0);
+    EXPECT_EQ(imported.scene.materials->at(1).diffuse, Vec3f(0.8f));
+  }
+  folder.write("model/a.mtl", "newmtl m\nmap_Kd ../white.ppm\n");
+  const ImportedScene imported =
+      import(folder.write("model/x.obj", "mtllib a.mtl\n" + square + "usemtl m\n" + textured_face));
+  EXPECT_NE(warning(imported, 0).find("map_Kd '../white.ppm' is refused"), std::string::npos);
+  EXPECT_EQ(imported.scene.materials->at(1).diffuse_texture, no_texture);
+}
+
+TEST(ImportObj, a_broken_texture_is_a_warning_and_the_others_stay_right) {
+  const TemporaryFolder folder;
+  folder.write("white.ppm", white_ppm);
+  folder.write("bad.png", "no image");
+  folder.write(
+      "a.mtl",
+      "newmtl a\nmap_Kd bad.png\nnewmtl b\nmap_Kd missing.png\nnewmtl c\nmap_Kd white.ppm\n"
+      "newmtl d\nmap_Kd ./white.ppm\n");
+  std::string text = "mtllib a.mtl\n" + square;
+  for (const char* name : {"a", "b", "c", "d"})
+    text += std::string("usemtl ") + name + '\n' + textured_face;
+  const ImportedScene imported = import(folder.write("x.obj", text));
+  EXPECT_EQ(imported.warnings.count(), 2);
+  EXPECT_NE(warning(imported, 0).find("bad.png: no image that can be read"), std::string::npos);
+  EXPECT_NE(warning(imported, 1).find("missing.png: No such file"), std::string::npos);
+  ASSERT_EQ(imported.scene.textures->size(), 1u);
+  const std::vector<Material>& materials = *imported.scene.materials;
+  EXPECT_EQ(materials[1].diffuse_texture, no_texture);
+  EXPECT_EQ(materials[2].diffuse_texture, no_texture);
+  EXPECT_EQ(materials[3].diffuse_texture, 0u);
+  EXPECT_EQ(materials[4].diffuse_texture, 0u);
+}
+
+TEST(ImportObj, textures_without_coordinates_to_use_them_are_not_read) {
+  const TemporaryFolder folder;
+  folder.write("a.mtl", "newmtl m\nmap_Kd missing.png\n");
+  const ImportedScene imported =
+      import(folder.write("x.obj", "mtllib a.mtl\n" + square + "usemtl m\nf 1 2 3\n"));
+  EXPECT_EQ(imported.warnings.count(), 0);
+}
+
+TEST(ImportObj, dropped_faces_of_every_kind_are_counted) {
+  const TemporaryFolder folder;
+  const ImportedScene imported = import(
+      folder.write("x.obj", square + "v nan 0 0\nf 1 2\nf 1 2 9\nf 1 2 5\nf 1 1 2\nf 1 2 3\n"));
+  EXPECT_EQ(imported.dropped_faces, 4);
+  EXPECT_EQ(imported.face_count, 1u);
+  EXPECT_EQ(imported.warnings.count(), 4);
+}
+
+TEST(ImportObj, what_cannot_be_shown_is_one_clear_line) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(load_error(folder.path()),
+            folder.path().string() + ": this is a directory, not a file");
+  EXPECT_EQ(load_error(folder.path() / "no.obj"),
+            (folder.path() / "no.obj").string() + ": No such file or directory");
+  const auto empty = folder.write("empty.obj", "");
+  EXPECT_EQ(load_error(empty), empty.string() + ": no triangles to show: the file is empty");
+  const auto text = folder.write("text.obj", "Dear sir or madam,\nfaces and vertices: none\n");
+  EXPECT_EQ(load_error(text),
+            text.string() + ": no triangles to show: this does not look like an OBJ file");
+  const auto binary = folder.write("b.obj", std::string("\x7f"
+                                                        "ELF\x02\x01\x01\x00\x00",
+                                                        9));
+  EXPECT_EQ(load_error(binary),
+            binary.string() + ": no triangles to show: this does not look like an OBJ file");
+}
+
+TEST(ImportObj, a_stop_ends_it) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("x.obj", square + "f 1 2 3\n");
+  Progress progress;
+  progress.request_stop();
+  EXPECT_THROW(import_obj(path, progress), Cancelled);
+}
+
+/// Triangles that a file's faces make, by counting words: an oracle that shares no code.
+uint32_t count_triangles(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  uint32_t count = 0;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string word;
+    words >> word;
+    if (word != "f") continue;
+    uint32_t corners = 0;
+    while (words >> word) ++corners;
+    count += corners - 2;
+  }
+  return count;
+}
+
+TEST(ImportObj, well_known_models_load_whole) {
+  const std::filesystem::path models = BOXWOOD_SHARED_DIR "/models";
+  if (!std::filesystem::exists(models)) GTEST_SKIP() << models << " is missing";
+  for (const char* name : {"cow", "spot", "stanford-bunny", "suzanne", "teapot"}) {
+    SCOPED_TRACE(name);
+    const std::filesystem::path path = models / (std::string(name) + ".obj");
+    const ImportedScene imported = import(path);
+    EXPECT_EQ(imported.scene.mesh->triangle_count(), count_triangles(path));
+    EXPECT_EQ(imported.dropped_faces, 0);
+    for (int i = 0; i < 3; ++i) {
+      const Box& bounds = imported.scene.mesh->bounds;
+      EXPECT_NEAR(bounds.min[i] + bounds.max[i], 0, 1e-6 * bounds.extent()[i]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tracer
