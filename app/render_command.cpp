@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "app/render_command.h"
+
+#include <chrono>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "app/build_accel.h"
+#include "app/exit_code.h"
+#include "app/interrupt.h"
+#include "app/option_error.h"
+#include "app/print_warnings.h"
+#include "app/progress_bar.h"
+#include "app/render_passes.h"
+#include "app/render_report.h"
+#include "app/render_view.h"
+#include "app/stopwatch.h"
+#include "tracer/base/parallel.h"
+#include "tracer/render/write_image.h"
+
+namespace app {
+namespace {
+
+void check_pixel(tracer::Vec2i pixel, tracer::Vec2i size_px) {
+  if (pixel.x < size_px.x && pixel.y < size_px.y) return;
+  throw OptionError(fmt::format("--pixel: {},{} lies outside; the last pixel of {}x{} is {},{}",
+                                pixel.x, pixel.y, size_px.x, size_px.y, size_px.x - 1,
+                                size_px.y - 1));
+}
+
+// Hours of work should not end at a misspelt folder.
+void check_writable(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw tracer::LoadError({path.string(), 0, "this is a folder; say a file's name"});
+  }
+  if (!std::filesystem::is_directory(folder, ignored)) {
+    throw tracer::LoadError({path.string(), 0, "there is no folder " + folder.string()});
+  }
+  if (access(folder.c_str(), W_OK) != 0 && access(path.c_str(), W_OK) != 0) {
+    throw tracer::LoadError({path.string(), 0, "cannot be written; choose another folder"});
+  }
+}
+
+class RenderJob {
+ public:
+  explicit RenderJob(const RenderOptions& options)
+      : options_(options), interrupt_(progress_, stop_) {
+    if (!options.is_quiet && ProgressBar::is_visible()) bar_.emplace(progress_);
+  }
+
+  int run() {
+    try {
+      load_and_build();
+    } catch (const tracer::Cancelled&) {
+      bar_.reset();
+      fmt::print(stderr, "interrupted while {}: nothing written\n", progress_.stage());
+      return exit_code::interrupted;
+    }
+    if (options_.pixel) describe_pixel();
+    const bool is_rendered = !options_.output || render();
+    if (options_.stats_file) write_stats(*options_.stats_file, options_, imported_, report_);
+    if (interrupt_.was_interrupted()) return exit_code::interrupted;
+    return is_rendered ? exit_code::success : exit_code::failure;
+  }
+
+ private:
+  void load_and_build() {
+    const Stopwatch load_start;
+    progress_.start_stage("loading");
+    imported_ = tracer::import_obj(options_.model, progress_);
+    report_.seconds.load = load_start.seconds();
+    if (!options_.is_quiet) print_loading_warnings();
+    world_.scene = std::make_shared<tracer::Scene>(imported_.scene);
+    resolve();
+
+    const Stopwatch build_start;
+    world_.accel = build_accel(imported_.scene.mesh, options_.builder, options_.build, progress_);
+    report_.seconds.build = build_start.seconds();
+    if (world_.accel->tree) report_.tree = measure(*world_.accel->tree);
+  }
+
+  void print_loading_warnings() {
+    const bool has_bar = bar_.has_value();
+    bar_.reset();
+    print_warnings(options_.model, imported_);
+    if (has_bar) bar_.emplace(progress_);
+  }
+
+  void resolve() {
+    const tracer::Mesh& mesh = *imported_.scene.mesh;
+    report_.view = resolve_view(options_, mesh);
+    if (options_.pixel) check_pixel(*options_.pixel, report_.view.size_px);
+    world_.camera = make_camera_frame(report_.view.camera, report_.view.size_px, mesh.origin);
+    world_.sky = report_.view.sky;
+  }
+
+  void describe_pixel() {
+    const std::string text =
+        describe_sample(world_, *options_.integrator, options_.render, report_.view.size_px,
+                        *options_.pixel, options_.sample);
+    fmt::print("{}{}", text, text.ends_with('\n') ? "" : "\n");
+  }
+
+  // Whether there was anything to write.
+  bool render() {
+    tracer::Film film(report_.view.size_px);
+    const RenderedPasses rendered = render_passes(world_, options_, film, stop_, progress_);
+    report_.passes = rendered.passes;
+    report_.whole_sample_count = rendered.whole_sample_count;
+    report_.seconds.render = rendered.seconds;
+    if (report_.passes.samples == 0) {
+      bar_.reset();
+      fmt::print(stderr, "stopped before the first sample: nothing written\n");
+      return false;
+    }
+    progress_.start_stage("writing");
+    const Stopwatch start;
+    write_image(*options_.output, film.image(), options_.render.exposure,
+                picture_metadata(options_, report_));
+    report_.seconds.write = start.seconds();
+    bar_.reset();
+    if (interrupt_.was_interrupted()) {
+      fmt::print(stderr, "interrupted after {} samples a pixel; wrote {}\n",
+                 report_.whole_sample_count, options_.output->string());
+    } else if (!options_.is_quiet) {
+      fmt::print(stderr, "{}\n", summary(options_, report_));
+    }
+    return true;
+  }
+
+  RenderOptions options_;
+  tracer::Progress progress_;
+  tracer::StopFlag stop_;
+  InterruptGuard interrupt_;
+  std::optional<ProgressBar> bar_;
+  tracer::ImportedScene imported_;
+  tracer::World world_;
+  RenderReport report_;
+};
+
+}  // namespace
+
+int render_command(const RenderOptions& options) {
+  if (options.output) check_writable(*options.output);
+  if (options.stats_file) check_writable(*options.stats_file);
+  RenderOptions complete = options;
+  if (complete.thread_count == 0) complete.thread_count = tracer::default_thread_count();
+  return tracer::with_thread_count(complete.thread_count,
+                                   [&] { return RenderJob(complete).run(); });
+}
+
+}  // namespace app
