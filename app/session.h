@@ -2,13 +2,14 @@
 // Edits in, finished tiles out. Knows no window and no OpenGL.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/session_tiles.h"
 #include "tracer/bvh/build.h"
 #include "tracer/bvh/metrics.h"
 #include "tracer/render/render.h"
@@ -19,21 +20,18 @@ namespace app {
 /// Everything the user may set. for_each_field lists of BuildSettings and RenderSettings say what
 /// each change costs.
 struct Edits {
+  /// Status::model_generation of the model that these edits, the camera above all, are meant for.
+  /// A newer model is not traced until they are.
+  uint64_t model_generation = 0;
   tracer::Camera camera;
   tracer::Vec2i size_px{1, 1};
   tracer::Vec3d sky{1.0};
   tracer::Shading shading = tracer::Shading::flat;
-  const tracer::Integrator* integrator = nullptr;
+  const tracer::Integrator* integrator = nullptr;  // nullptr: the first of the table
   tracer::RenderSettings render;
   const tracer::Builder* builder = nullptr;  // nullptr: BVH off, brute force
   tracer::BuildSettings build;
   int sample_limit = 1024;
-};
-
-/// A rectangle of the picture as it stands, linear radiance, rows of tile.width().
-struct FinishedTile {
-  tracer::Tile tile;
-  std::vector<tracer::Vec3f> pixels;
 };
 
 /// What the program is doing and did, for the panel.
@@ -43,16 +41,17 @@ struct Status {
   bool is_rendering = false;
   std::string stage;              // of the job that runs
   float fraction = 0;             // of the stage
+  std::string loading_path;       // while is_loading
   std::string error;              // of the last load, empty when it went well
   std::string model_path;         // empty: none yet
-  uint64_t model_generation = 0;  // grows with every model shown
+  uint64_t model_generation = 0;  // grows with every model that replaces another
   std::shared_ptr<const tracer::ImportedScene> model;
   tracer::TreeMetrics tree;  // of the tree in use; nodes 0 when the BVH is off
   double load_seconds = 0;
   double build_seconds = 0;
   double mrays_per_second = 0;              // of the last second of tracing
-  double mrays_per_second_bvh = 0;          // last measured with the tree, this view and integrator
-  double mrays_per_second_brute_force = 0;  // last measured without
+  double mrays_per_second_bvh = 0;          // of this picture's rays, with the tree
+  double mrays_per_second_brute_force = 0;  // and without; 0 until known
   uint32_t samples = 0;                     // whole passes in the picture
   uint64_t rays = 0;                        // traced for this picture
   double seconds = 0;                       // spent tracing this picture
@@ -67,7 +66,7 @@ struct Update {
 /// Loads, builds and renders on threads of its own; no call here waits for any of that.
 class Session {
  public:
-  /// `wake` is called from any thread, at most every few milliseconds, when poll() has news.
+  /// `wake` is called from any thread when poll() has news, at most once between two polls.
   explicit Session(std::function<void()> wake);
   ~Session();
   Session(const Session&) = delete;
@@ -75,7 +74,8 @@ class Session {
 
   /// Starts loading; what is shown stays until the new model is ready, and for good if it fails.
   void open(const std::filesystem::path& path);
-  /// Ends a load or build in flight; what was shown before stays.
+  /// Ends a load or build in flight; what was shown before stays. A cancelled build is not begun
+  /// again until the settings change.
   void cancel_job();
   /// The user's settings as they now are. Works out what must be done again, and does no more.
   void set(const Edits& edits);

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// What the session's job thread does, as functions of their arguments alone.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "tracer/base/progress.h"
+#include "tracer/bvh/build.h"
+#include "tracer/bvh/metrics.h"
+#include "tracer/bvh/trace/accel.h"
+#include "tracer/scene/import_obj.h"
+
+namespace app {
+
+/// Which tree: nullptr for none.
+struct TreeKey {
+  const tracer::Builder* builder = nullptr;
+  tracer::BuildSettings settings;
+};
+
+/// Whether both ask for the same tree; without a builder the settings don't matter.
+bool is_same_tree(const TreeKey& a, const TreeKey& b);
+
+struct BuiltTree {
+  TreeKey key;
+  std::shared_ptr<const tracer::Accel> accel;
+  tracer::TreeMetrics metrics;
+  double seconds = 0;
+};
+
+struct LoadedModel {
+  std::string path;
+  uint64_t generation = 0;
+  std::shared_ptr<const tracer::ImportedScene> imported;
+  std::shared_ptr<const tracer::Scene> scene;  // shaded as wanted
+  double seconds = 0;
+};
+
+/// Throws LoadError or Cancelled.
+LoadedModel load_model(const std::filesystem::path& path, tracer::Progress& progress);
+/// Throws Cancelled.
+BuiltTree build_tree(const std::shared_ptr<const tracer::Mesh>& mesh, const TreeKey& key,
+                     tracer::Progress& progress);
+
+}  // namespace app

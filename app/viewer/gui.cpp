@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer/gui.h"
+
+#include <GL/gl.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+
+namespace app {
+
+Gui::Gui(const Window& window) : window_(window) {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.ConfigInputTextCursorBlink = false;  // a blinking cursor would wake a resting program
+  ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
+  if (!ImGui_ImplOpenGL3_Init("#version 130")) {
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    throw WindowError("the display offers no OpenGL 3");
+  }
+}
+
+Gui::~Gui() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void Gui::follow_scale() {
+  const tracer::Vec2i size = window_.size();
+  const tracer::Vec2i framebuffer_px = window_.framebuffer_px();
+  if (size.x <= 0 || framebuffer_px.x <= 0) return;
+  const double pixel_ratio = static_cast<double>(framebuffer_px.x) / size.x;
+  const double ui_scale = window_.content_scale() / pixel_ratio;
+  if (pixel_ratio == pixel_ratio_ && ui_scale == ui_scale_) return;
+  pixel_ratio_ = pixel_ratio;
+  ui_scale_ = ui_scale;
+  fonts_ = apply_style(ui_scale, pixel_ratio);
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui_ImplOpenGL3_CreateFontsTexture();
+}
+
+void Gui::begin_frame() {
+  follow_scale();
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Gui::render() {
+  ImGui::Render();
+  const tracer::Vec2i framebuffer_px = window_.framebuffer_px();
+  glViewport(0, 0, framebuffer_px.x, framebuffer_px.y);
+  glClearColor(palette::backdrop.x, palette::backdrop.y, palette::backdrop.z, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+}  // namespace app

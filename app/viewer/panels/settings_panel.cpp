@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer/panels/settings_panel.h"
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <type_traits>
+
+namespace app {
+namespace {
+
+constexpr int greatest_sample_limit = 65536;
+
+/// A combo over a table of {name, label, what}.
+template <class Entry>
+void draw_choice(const Ui& ui, const char* label, const char* name, std::span<const Entry> entries,
+                 const Entry*& chosen) {
+  control_label(ui, label);
+  const std::string id = std::string("##") + name;
+  const bool is_open = ImGui::BeginCombo(id.c_str(), std::string(chosen->label).c_str());
+  if (!is_open) {
+    finish_control(ui, name, std::string(chosen->what));
+    return;
+  }
+  ui.layout.note_last_item(name);
+  for (const Entry& entry : entries) {
+    const bool is_chosen = &entry == chosen;
+    if (ImGui::Selectable(std::string(entry.label).c_str(), is_chosen)) chosen = &entry;
+    finish_control(ui, std::string(name) + ' ' + std::string(entry.name), std::string(entry.what));
+  }
+  ImGui::EndCombo();
+}
+
+bool draw_value(const char* id, int& value, const tracer::Field<int>& field) {
+  constexpr int widest_slider = 1000;
+  if (field.max - field.min > widest_slider) {
+    return ImGui::DragInt(id, &value, 0.2f, field.min, field.max, "%d",
+                          ImGuiSliderFlags_AlwaysClamp);
+  }
+  return ImGui::SliderInt(id, &value, field.min, field.max, "%d", ImGuiSliderFlags_AlwaysClamp);
+}
+
+bool draw_value(const char* id, double& value, const tracer::Field<double>& field) {
+  return ImGui::DragScalar(id, ImGuiDataType_Double, &value, 0.02f, &field.min, &field.max,
+                           "%+.2f EV", ImGuiSliderFlags_AlwaysClamp);
+}
+
+template <class Settings>
+void draw_fields(const Ui& ui, Settings& settings) {
+  for_each_field(settings, [&](auto& value, const auto& field) {
+    control_label(ui, format_label(field.name));
+    draw_value((std::string("##") + field.name).c_str(), value, field);
+    finish_control(ui, field.name, field.help);
+  });
+}
+
+void draw_tree_settings(const Ui& ui, ViewerSettings& settings) {
+  control_label(ui, "BVH");
+  ImGui::Checkbox(settings.is_bvh_on ? "on##bvh" : "off: every triangle##bvh", &settings.is_bvh_on);
+  finish_control(ui, "bvh",
+                 "The tree over the triangles. Without it every ray meets every triangle; the "
+                 "picture is the same to the last bit.");
+  draw_choice(ui, "Builder", "builder", tracer::builders(), settings.builder);
+  draw_fields(ui, settings.build);
+}
+
+void draw_sky(const Ui& ui, ViewerSettings& settings) {
+  control_label(ui, "Sky");
+  const float square = ImGui::GetFrameHeight();
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - square -
+                          ImGui::GetStyle().ItemInnerSpacing.x);
+  ImGui::SliderFloat("##sky", &settings.sky_brightness, 0, 10, "%.2f",
+                     ImGuiSliderFlags_Logarithmic);
+  settings.sky_brightness = std::max(settings.sky_brightness, 0.0f);
+  finish_control(ui, "sky", "Radiance from everywhere around the model.");
+  ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+  ImGui::ColorEdit3("##sky-color", &settings.sky_color.x,
+                    ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float);
+  settings.sky_color = clamp(settings.sky_color, tracer::Vec3f(0), tracer::Vec3f(1));
+  finish_control(ui, "sky-color", "");
+}
+
+void draw_picture_settings(const Ui& ui, ViewerSettings& settings) {
+  draw_choice(ui, "Integrator", "integrator", tracer::integrators(), settings.integrator);
+  control_label(ui, "Shading");
+  const int shading = segmented(ui, "shading", {"Flat", "Smooth"},
+                                settings.shading == tracer::Shading::smooth ? 1 : 0);
+  settings.shading = shading == 1 ? tracer::Shading::smooth : tracer::Shading::flat;
+  draw_fields(ui, settings.render);
+  draw_sky(ui, settings);
+  control_label(ui, "Samples");
+  ImGui::SliderInt("##sample-limit", &settings.sample_limit, 1, greatest_sample_limit, "up to %d",
+                   ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  finish_control(ui, "sample-limit", "Samples a pixel at which the picture is done.");
+  control_label(ui, "Up");
+  settings.up =
+      static_cast<UpAxis>(segmented(ui, "up", {"Auto", "Y", "Z"}, static_cast<int>(settings.up)));
+}
+
+}  // namespace
+
+void ViewerSettings::set_sky(const tracer::Vec3d& radiance) {
+  const double largest = tracer::max_abs(radiance);
+  sky_brightness = static_cast<float>(largest);
+  sky_color = largest > 0 ? tracer::Vec3f(radiance / largest) : tracer::Vec3f(1.0f);
+}
+
+void draw_settings(const Ui& ui, ViewerSettings& settings) {
+  if (section(ui, "Bounding volume hierarchy")) draw_tree_settings(ui, settings);
+  if (section(ui, "Picture")) draw_picture_settings(ui, settings);
+}
+
+}  // namespace app

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/session.h"
+#include "app/viewer/panels/rows.h"
+
+namespace app {
+
+enum class UpAxis { automatic, y, z };
+
+/// The settings as the panel holds them.
+struct ViewerSettings {
+  bool is_bvh_on = true;
+  const tracer::Builder* builder = &tracer::builders().front();  // while the BVH is on
+  tracer::BuildSettings build;
+  const tracer::Integrator* integrator = &tracer::integrators().front();
+  tracer::Shading shading = tracer::Shading::flat;
+  tracer::RenderSettings render;
+  tracer::Vec3f sky_color{1.0f};  // the largest component is 1
+  float sky_brightness = 1;
+  int sample_limit = 1024;
+  UpAxis up = UpAxis::automatic;
+
+  tracer::Vec3d sky() const { return tracer::Vec3d(sky_color) * double{sky_brightness}; }
+  void set_sky(const tracer::Vec3d& radiance);
+};
+
+/// The part of the panel that changes things.
+void draw_settings(const Ui& ui, ViewerSettings& settings);
+
+}  // namespace app

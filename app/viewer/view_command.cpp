@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer/view_command.h"
+
+#include <cstdio>
+#include <exception>
+
+#include <fmt/format.h>
+
+#include "app/viewer/viewer.h"
+#include "tracer/base/parallel.h"
+
+namespace app {
+
+int view_command(const ViewOptions& options) {
+  const int thread_count =
+      options.thread_count > 0 ? options.thread_count : tracer::default_thread_count();
+  const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
+                                            static_cast<size_t>(thread_count));
+  try {
+    return Viewer(options).run();
+  } catch (const std::exception& exception) {
+    fmt::print(stderr, "boxwood: {}\n", exception.what());
+    return 2;
+  }
+}
+
+}  // namespace app

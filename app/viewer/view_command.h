@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "tracer/base/vectors.h"
+
+namespace app {
+
+struct ViewOptions {
+  std::optional<std::filesystem::path> model;
+  std::optional<std::filesystem::path> view_file;  // else MODEL.view.json beside the model
+  int frames = 0;  // more than 0: ends when the picture has so many samples a pixel
+  std::optional<std::filesystem::path> screenshot;  // PNG of the whole window, written at the end
+  int thread_count = 0;                             // 0: one a core
+  tracer::Vec2i size_px{1280, 800};                 // of the window on an unscaled display
+  std::optional<std::filesystem::path> ui_layout;   // see LayoutReport; else $BOXWOOD_UI_LAYOUT
+};
+
+/// Runs the window until it is closed. Returns 0, or 2 after one line on stderr when there is no
+/// display, no OpenGL, or nothing that could be shown.
+int view_command(const ViewOptions& options);
+
+}  // namespace app

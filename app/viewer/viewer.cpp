@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer/viewer.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <utility>
+
+#include <GLFW/glfw3.h>
+
+#include "tracer/render/write_image.h"
+
+namespace app {
+namespace {
+
+constexpr double tracing_interval = 1.0 / 30;
+constexpr double input_interval = 1.0 / 60;
+constexpr double job_interval = 1.0 / 20;
+constexpr double minimised_interval = 0.5;
+constexpr double watch_interval = 1.0;
+// Frames after an input in which hovering, tooltips and sizes still change.
+constexpr int frames_to_settle = 3;
+
+std::filesystem::path layout_path(const ViewOptions& options) {
+  if (options.ui_layout) return *options.ui_layout;
+  const char* path = std::getenv("BOXWOOD_UI_LAYOUT");
+  return path != nullptr ? path : "";
+}
+
+std::optional<tracer::View> load_first_view(const ViewOptions& options) {
+  if (!options.view_file) return std::nullopt;
+  return tracer::load_view(*options.view_file);
+}
+
+}  // namespace
+
+Viewer::Viewer(const ViewOptions& options)
+    : options_(options),
+      first_view_(load_first_view(options)),
+      window_("Boxwood", options.size_px),
+      gui_(window_),
+      layout_(layout_path(options)),
+      screenshots_([] { Window::wake(); }),
+      session_([this] {
+        has_news_ = true;
+        Window::wake();
+      }) {
+  if (options.frames > 0) settings_.sample_limit = options.frames;
+}
+
+int Viewer::run() {
+  if (options_.model) open(*options_.model);
+  frames_due_ = frames_to_settle;
+  while (!window_.should_close() && !is_run_over()) {
+    wait();
+    if (window_.take_activity()) frames_due_ = frames_to_settle;
+    for (const auto& path : window_.take_drops()) open(path);
+    watch_files();
+    if (seconds_to_frame() <= 0) draw_frame();
+  }
+  window_.hide();
+  return options_.model && adopted_generation_ == 0 ? 2 : 0;
+}
+
+double Viewer::seconds_to_frame() const {
+  double due = std::numeric_limits<double>::infinity();
+  const auto due_after = [&](double interval) {
+    due = std::min(due, last_frame_seconds_ + interval);
+  };
+  if (frames_due_ > 0) due_after(status_.is_rendering ? tracing_interval : input_interval);
+  if (has_news_ || screenshots_.is_busy()) due_after(tracing_interval);
+  if (is_job_running()) due_after(job_interval);
+  if (!toast_.empty()) due = std::min(due, toast_end_seconds_);
+  if (window_.framebuffer_px().x == 0)
+    due = std::max(due, last_frame_seconds_ + minimised_interval);
+  return due - glfwGetTime();
+}
+
+void Viewer::wait() {
+  const double frame_wait = seconds_to_frame();
+  const bool has_file = !adopted_path_.empty();
+  const double timeout = has_file ? std::min(frame_wait, watch_interval) : frame_wait;
+  if (timeout <= 0) {
+    window_.poll_events();
+  } else if (timeout == std::numeric_limits<double>::infinity()) {
+    window_.wait_events();
+  } else {
+    window_.wait_events(timeout);
+  }
+}
+
+void Viewer::watch_files() {
+  if (!is_job_running() && file_watch_.has_changed(glfwGetTime())) open(adopted_path_);
+}
+
+bool Viewer::has_finished_picture() const {
+  const bool is_finished = status_.samples >= static_cast<uint32_t>(settings_.sample_limit) &&
+                           !status_.is_rendering && !is_job_running();
+  return adopted_generation_ > 0 && is_finished && !picture_.is_empty();
+}
+
+bool Viewer::is_run_over() const {
+  if (options_.frames <= 0) return false;
+  const bool is_failed = adopted_generation_ == 0 && !is_job_running();
+  return is_captured_ || (is_failed && frames_drawn_ >= frames_to_settle);
+}
+
+void Viewer::draw_frame() {
+  last_frame_seconds_ = glfwGetTime();
+  frames_due_ = std::max(frames_due_ - 1, 0);
+  take_update();
+  if (window_.framebuffer_px().x == 0) return;
+  const bool is_last = options_.frames > 0 && has_finished_picture();
+
+  gui_.begin_frame();
+  lay_out();
+  handle_input();
+  const Ui ui{layout_, gui_.fonts(), gui_.scale()};
+  draw_panel(ui);
+  draw_overlays(ui);
+  send_edits();
+  draw_picture();
+  gui_.render();
+  layout_.finish_frame();
+  ++frames_drawn_;
+  if (is_last && frames_drawn_ > frames_to_settle) {
+    if (options_.screenshot) {
+      tracer::write_image(*options_.screenshot, read_framebuffer(window_.framebuffer_px()), 0);
+    }
+    is_captured_ = true;
+  }
+  if (is_last) frames_due_ = 1;
+  window_.swap();
+}
+
+}  // namespace app

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Viewer: models, tiles and news from the session, edits to it.
+#include <cstdio>
+#include <system_error>
+
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include "app/viewer/panels/overlay.h"
+#include "app/viewer/viewer.h"
+
+namespace app {
+namespace {
+
+void report_warnings(const tracer::ImportedScene& model) {
+  for (const tracer::Message& message : model.warnings.messages()) {
+    fmt::print(stderr, "{}\n", message.text());
+  }
+  if (model.warnings.count() > 0) fmt::print(stderr, "{}\n", summarize(model));
+}
+
+}  // namespace
+
+void Viewer::open(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::path absolute = std::filesystem::absolute(path, error);
+  session_.open(error ? path : absolute);
+  open_dialog_.close();
+  status_.is_loading = true;
+  job_start_seconds_ = glfwGetTime();
+}
+
+void Viewer::take_update() {
+  has_news_ = false;
+  const bool was_running = is_job_running();
+  Update update = session_.poll();
+  status_ = std::move(update.status);
+  if (is_job_running() && !was_running) job_start_seconds_ = glfwGetTime();
+  picture_.update(update.size_px, update.tiles);
+  report_error();
+  if (status_.model_generation != adopted_generation_) adopt_model();
+  if (const auto message = screenshots_.take_message()) show_toast(*message);
+}
+
+void Viewer::report_error() {
+  if (status_.error == reported_error_) return;
+  reported_error_ = shown_error_ = status_.error;
+  if (!reported_error_.empty()) fmt::print(stderr, "{}\n", reported_error_);
+}
+
+std::optional<tracer::View> Viewer::find_view() {
+  if (first_view_) return std::exchange(first_view_, std::nullopt);
+  const std::filesystem::path path = tracer::view_path_of(status_.model_path);
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return std::nullopt;
+  try {
+    return tracer::load_view(path);
+  } catch (const std::exception& exception) {
+    fmt::print(stderr, "{}\n", exception.what());
+    shown_error_ = exception.what();
+    return std::nullopt;
+  }
+}
+
+void Viewer::adopt_model() {
+  const tracer::ImportedScene& model = *status_.model;
+  lay_out();  // the aspect may not be known yet
+  if (status_.model_path == adopted_path_) {
+    viewpoint_.reload(*model.scene.mesh);
+  } else {
+    const auto view = find_view();
+    settings_.up = UpAxis::automatic;
+    viewpoint_.set_up(settings_.up, aspect());
+    viewpoint_.open(*model.scene.mesh, view, aspect());
+    settings_.shading = model.scene.shading;
+    if (view && view->sky) settings_.set_sky(*view->sky);
+    const std::string name = std::filesystem::path(status_.model_path).filename().string();
+    window_.set_title(name + " - Boxwood");
+  }
+  adopted_generation_ = status_.model_generation;
+  adopted_path_ = status_.model_path;
+  file_watch_.watch(adopted_path_);
+  are_warnings_shown_ = model.warnings.count() > 0;
+  report_warnings(model);
+}
+
+void Viewer::send_edits() {
+  viewpoint_.set_up(settings_.up, aspect());
+  picture_.set_exposure(settings_.render.exposure);
+  const tracer::Vec2d size = round(area_.size * gui_.pixel_ratio());
+  session_.set({.model_generation = adopted_generation_,
+                .camera = viewpoint_.camera(),
+                .size_px = max(tracer::Vec2i(size), tracer::Vec2i(1)),
+                .sky = settings_.sky(),
+                .shading = settings_.shading,
+                .integrator = settings_.integrator,
+                .render = settings_.render,
+                .builder = settings_.is_bvh_on ? settings_.builder : nullptr,
+                .build = settings_.build,
+                .sample_limit = settings_.sample_limit});
+}
+
+}  // namespace app
