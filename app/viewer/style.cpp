@@ -73,7 +73,7 @@ Fonts apply_style(double ui_scale, double pixel_ratio) {
   style.GrabRounding = 3;
   style.PopupRounding = 5;
   style.ScrollbarSize = 10;
-  style.GrabMinSize = 12;
+  style.GrabMinSize = 4;
   style.WindowBorderSize = 1;
   style.FrameBorderSize = 0;
   style.ScaleAllSizes(static_cast<float>(ui_scale));

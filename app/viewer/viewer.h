@@ -82,6 +82,7 @@ class Viewer {
   PictureArea area_;
   bool is_panel_shown_ = true;
   bool is_cheat_sheet_shown_ = false;
+  bool is_typing_ = false;  // into a field of the panel
   bool are_warnings_shown_ = false;
   std::string shown_error_;
   std::string toast_;

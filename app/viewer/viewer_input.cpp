@@ -24,6 +24,8 @@ std::filesystem::path working_folder() {
 
 void Viewer::handle_input() {
   const bool is_over_gui = ImGui::GetIO().WantCaptureMouse;
+  // The dialog's own text field counts as the dialog, also in the frame that closes it.
+  is_typing_ = ImGui::GetIO().WantTextInput && !open_dialog_.is_open();
   for (const InputEvent& event : window_.take_input()) {
     using Kind = InputEvent::Kind;
     if (event.kind == Kind::key_press) {
@@ -39,7 +41,7 @@ void Viewer::handle_key(const InputEvent& event) {
     if (const auto path = open_dialog_.press_key(event.code)) open(*path);
     return;
   }
-  if (ImGui::GetIO().WantTextInput) return;
+  if (is_typing_) return;
   if (const auto command = find_command(event.code, event.modifiers)) execute(*command);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/viewer/panels/rows.h"
 
+#include <algorithm>
+
 namespace app {
 namespace {
 
@@ -15,7 +17,9 @@ bool section(const Ui& ui, const char* title) {
   ImGui::PushStyleColor(ImGuiCol_Header, ImVec4(1, 1, 1, 0.035f));
   ImGui::PushStyleColor(ImGuiCol_HeaderHovered, ImVec4(1, 1, 1, 0.07f));
   ImGui::PushFont(ui.fonts.bold);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(3 * ui.scale, 3 * ui.scale));
   const bool is_open = ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
+  ImGui::PopStyleVar();
   ImGui::PopFont();
   ImGui::PopStyleColor(2);
   ui.layout.note_last_item(std::string("section ") + title);
@@ -69,6 +73,34 @@ int segmented(const Ui& ui, const std::string& name, std::initializer_list<const
   }
   ImGui::PopStyleVar();
   return result;
+}
+
+void begin_slider(double part, float kept_width) {
+  const ImVec2 min = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x - kept_width;
+  const ImVec2 max(min.x + width, min.y + ImGui::GetFrameHeight());
+  const bool is_hovered = ImGui::IsMouseHoveringRect(min, max);
+  const float rounding = ImGui::GetStyle().FrameRounding;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(min, max,
+                     ImGui::GetColorU32(is_hovered ? ImGuiCol_FrameBgHovered : ImGuiCol_FrameBg),
+                     rounding);
+  const float filled = static_cast<float>(std::clamp(part, 0.0, 1.0)) * width;
+  if (filled > 0) {
+    list.PushClipRect(min, ImVec2(min.x + filled, max.y), true);
+    list.AddRectFilled(min, max, ImGui::GetColorU32(ImGuiCol_Header), rounding);
+    list.PopClipRect();
+  }
+  ImGui::SetNextItemWidth(width);
+  const ImVec4 none(0, 0, 0, 0);
+  for (const ImGuiCol color : {ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive,
+                               ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive}) {
+    ImGui::PushStyleColor(color, none);
+  }
+}
+
+void end_slider() {
+  ImGui::PopStyleColor(5);
 }
 
 void number_row(const Ui& ui, const char* label, const Quantity& quantity) {

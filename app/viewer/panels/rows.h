@@ -29,6 +29,10 @@ void finish_control(const Ui& ui, const std::string& name, const std::string& he
 /// Buttons side by side, of which one is chosen; returns the index chosen now.
 int segmented(const Ui& ui, const std::string& name, std::initializer_list<const char*> labels,
               int chosen);
+/// Draws what lies below a slider, filled up to `part`, and makes the slider itself transparent
+/// until end_slider(). Its width is the room that is left, less `kept_width`.
+void begin_slider(double part, float kept_width);
+void end_slider();
 /// A number, right-aligned, with its unit.
 void number_row(const Ui& ui, const char* label, const Quantity& quantity);
 /// A wrapped tooltip for the item before it.

@@ -2,6 +2,7 @@
 #include "app/viewer/panels/settings_panel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -10,6 +11,7 @@ namespace app {
 namespace {
 
 constexpr int greatest_sample_limit = 65536;
+constexpr float brightest_slider = 5;
 
 /// A combo over a table of {name, label, what}.
 template <class Entry>
@@ -31,18 +33,20 @@ void draw_choice(const Ui& ui, const char* label, const char* name, std::span<co
   ImGui::EndCombo();
 }
 
-bool draw_value(const char* id, int& value, const tracer::Field<int>& field) {
+void draw_value(const char* id, int& value, const tracer::Field<int>& field) {
   constexpr int widest_slider = 1000;
   if (field.max - field.min > widest_slider) {
-    return ImGui::DragInt(id, &value, 0.2f, field.min, field.max, "%d",
-                          ImGuiSliderFlags_AlwaysClamp);
+    ImGui::DragInt(id, &value, 0.2f, field.min, field.max, "%d", ImGuiSliderFlags_AlwaysClamp);
+    return;
   }
-  return ImGui::SliderInt(id, &value, field.min, field.max, "%d", ImGuiSliderFlags_AlwaysClamp);
+  begin_slider(static_cast<double>(value - field.min) / (field.max - field.min), 0);
+  ImGui::SliderInt(id, &value, field.min, field.max, "%d", ImGuiSliderFlags_AlwaysClamp);
+  end_slider();
 }
 
-bool draw_value(const char* id, double& value, const tracer::Field<double>& field) {
-  return ImGui::DragScalar(id, ImGuiDataType_Double, &value, 0.02f, &field.min, &field.max,
-                           "%+.2f EV", ImGuiSliderFlags_AlwaysClamp);
+void draw_value(const char* id, double& value, const tracer::Field<double>& field) {
+  ImGui::DragScalar(id, ImGuiDataType_Double, &value, 0.02f, &field.min, &field.max, "%+.2f EV",
+                    ImGuiSliderFlags_AlwaysClamp);
 }
 
 template <class Settings>
@@ -66,14 +70,13 @@ void draw_tree_settings(const Ui& ui, ViewerSettings& settings) {
 
 void draw_sky(const Ui& ui, ViewerSettings& settings) {
   control_label(ui, "Sky");
-  const float square = ImGui::GetFrameHeight();
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - square -
-                          ImGui::GetStyle().ItemInnerSpacing.x);
-  ImGui::SliderFloat("##sky", &settings.sky_brightness, 0, 10, "%.2f",
-                     ImGuiSliderFlags_Logarithmic);
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  begin_slider(settings.sky_brightness / brightest_slider, ImGui::GetFrameHeight() + gap);
+  ImGui::SliderFloat("##sky", &settings.sky_brightness, 0, brightest_slider, "%.2f");
+  end_slider();
   settings.sky_brightness = std::max(settings.sky_brightness, 0.0f);
   finish_control(ui, "sky", "Radiance from everywhere around the model.");
-  ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+  ImGui::SameLine(0, gap);
   ImGui::ColorEdit3("##sky-color", &settings.sky_color.x,
                     ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float);
   settings.sky_color = clamp(settings.sky_color, tracer::Vec3f(0), tracer::Vec3f(1));
@@ -89,8 +92,10 @@ void draw_picture_settings(const Ui& ui, ViewerSettings& settings) {
   draw_fields(ui, settings.render);
   draw_sky(ui, settings);
   control_label(ui, "Samples");
+  begin_slider(std::log(settings.sample_limit) / std::log(greatest_sample_limit), 0);
   ImGui::SliderInt("##sample-limit", &settings.sample_limit, 1, greatest_sample_limit, "up to %d",
                    ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  end_slider();
   finish_control(ui, "sample-limit", "Samples a pixel at which the picture is done.");
   control_label(ui, "Up");
   settings.up =

@@ -76,7 +76,7 @@ double speed_up_of(const Status& status) {
 }
 
 void draw_statistics(const Ui& ui, const Status& status, int sample_limit) {
-  if (!section(ui, "What it did")) return;
+  if (!section(ui, "Statistics")) return;
   draw_tree(ui, status);
   ImGui::Separator();
   draw_tracing(ui, status, sample_limit);
