@@ -19,6 +19,13 @@ void report_warnings(const tracer::ImportedScene& model) {
   if (model.warnings.count() > 0) fmt::print(stderr, "{}\n", summarize(model));
 }
 
+/// What shows a model best at first sight: light where it brings its own, else its shape.
+const tracer::Integrator* first_integrator(const tracer::Scene& scene) {
+  const char* name = scene.lights && !scene.lights->empty() ? "path" : "eyelight";
+  const tracer::Integrator* found = tracer::find_integrator(name);
+  return found != nullptr ? found : &tracer::integrators().front();
+}
+
 }  // namespace
 
 void Viewer::open(const std::filesystem::path& path) {
@@ -73,6 +80,7 @@ void Viewer::adopt_model() {
     viewpoint_.set_up(settings_.up, aspect());
     viewpoint_.open(*model.scene.mesh, view, aspect());
     settings_.shading = model.scene.shading;
+    if (adopted_generation_ == 0) settings_.integrator = first_integrator(model.scene);
     if (view && view->sky) settings_.set_sky(*view->sky);
     const std::string name = std::filesystem::path(status_.model_path).filename().string();
     window_.set_title(name + " - Boxwood");

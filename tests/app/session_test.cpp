@@ -3,14 +3,10 @@
 
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <condition_variable>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <mutex>
-#include <numbers>
 #include <string>
 #include <thread>
 
@@ -18,10 +14,13 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "tests/support/test_ball.h"
+
 namespace app {
 namespace {
 
 namespace fs = std::filesystem;
+using tests::write_ball;
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
@@ -35,29 +34,6 @@ double cpu_seconds() {
     return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
   };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-/// A ball of 4 * rings^2 triangles less the caps', with bumps so that its tree is no trivial one.
-void write_ball(const fs::path& path, int rings) {
-  std::ofstream file(path);
-  const int segments = 2 * rings;
-  for (int ring = 0; ring <= rings; ++ring) {
-    for (int segment = 0; segment < segments; ++segment) {
-      const double theta = std::numbers::pi * ring / rings;
-      const double phi = 2 * std::numbers::pi * segment / segments;
-      const double radius = 1 + 0.1 * std::sin(7 * theta) * std::cos(5 * phi);
-      file << "v " << radius * std::sin(theta) * std::cos(phi) << ' ' << radius * std::cos(theta)
-           << ' ' << radius * std::sin(theta) * std::sin(phi) << '\n';
-    }
-  }
-  for (int ring = 0; ring < rings; ++ring) {
-    for (int segment = 0; segment < segments; ++segment) {
-      const int next = (segment + 1) % segments;
-      const int a = ring * segments + segment + 1, b = ring * segments + next + 1;
-      file << "f " << a << ' ' << b << ' ' << b + segments << '\n';
-      file << "f " << a << ' ' << b + segments << ' ' << a + segments << '\n';
-    }
-  }
 }
 
 /// A session with the part of the window: adopts models, keeps the picture that the tiles make.
@@ -132,12 +108,6 @@ class SessionTest : public testing::Test {
     return loaded ? wait_until([this] { return is_done(); }) : loaded;
   }
 
-  bool has_tree_of(const tracer::BuildSettings& settings) const {
-    return !status_.is_building && status_.tree.node_count > 0 &&
-           status_.tree.depth <= settings.max_depth &&
-           (settings.max_depth < 64 || status_.tree.largest_leaf <= 64);
-  }
-
   fs::path folder_;
   Edits edits_;
   Status status_;
@@ -193,7 +163,7 @@ TEST_F(SessionTest, a_new_tree_keeps_the_film_to_the_last_bit) {
   const uint32_t nodes = status_.tree.node_count;
   edits_.build.max_depth = 3;
   session_->set(edits_);
-  ASSERT_TRUE(wait_until([&] { return has_tree_of(edits_.build); }));
+  ASSERT_TRUE(wait_until([&] { return !status_.is_building && status_.tree.depth <= 3; }));
   EXPECT_LT(status_.tree.node_count, nodes);
   EXPECT_TRUE(is_done());
   EXPECT_EQ(status_.rays, rays);

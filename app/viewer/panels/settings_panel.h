@@ -16,8 +16,8 @@ struct ViewerSettings {
   const tracer::Integrator* integrator = &tracer::integrators().front();
   tracer::Shading shading = tracer::Shading::flat;
   tracer::RenderSettings render;
-  tracer::Vec3f sky_color{1.0f};  // the largest component is 1
-  float sky_brightness = 1;
+  tracer::Vec3f sky_color{0.78f, 0.88f, 1.0f};
+  float sky_brightness = 0.6f;
   int sample_limit = 1024;
   UpAxis up = UpAxis::automatic;
 

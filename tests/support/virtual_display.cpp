@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "tests/support/virtual_display.h"
+
+#include <csignal>
+#include <cstdlib>
+#include <sstream>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace tests {
+namespace {
+
+/// The 32-bit word at `index` of an XWD header, big-endian.
+uint32_t header_word(const std::string& bytes, size_t index) {
+  uint32_t word = 0;
+  for (size_t i = 0; i < 4; ++i) word = word << 8 | static_cast<uint8_t>(bytes[4 * index + i]);
+  return word;
+}
+
+std::string read_line(int file) {
+  std::string line;
+  for (char letter = 0; read(file, &letter, 1) == 1 && letter != '\n';) line += letter;
+  return line;
+}
+
+}  // namespace
+
+bool is_installed(const std::string& program) {
+  const char* search_path = std::getenv("PATH");
+  std::istringstream folders(search_path != nullptr ? search_path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (access((folder + '/' + program).c_str(), X_OK) == 0) return true;
+  }
+  return false;
+}
+
+VirtualDisplay::VirtualDisplay() {
+  int number_pipe[2];
+  if (pipe(number_pipe) != 0) return;
+  pid_ = fork();
+  if (pid_ == 0) {
+    const int silence = open("/dev/null", O_RDWR);
+    dup2(silence, STDOUT_FILENO);
+    dup2(silence, STDERR_FILENO);
+    const std::string pipe_end = std::to_string(number_pipe[1]);
+    execlp("Xvfb", "Xvfb", "-displayfd", pipe_end.c_str(), "-screen", "0", "1280x800x24", "-fbdir",
+           folder_.path().c_str(), "-nolisten", "tcp", nullptr);
+    _exit(127);
+  }
+  close(number_pipe[1]);
+  const std::string number = read_line(number_pipe[0]);
+  close(number_pipe[0]);
+  if (number.empty()) return;
+  name_ = ':' + number;
+  setenv("DISPLAY", name_.c_str(), 1);
+  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+  setenv("LP_NUM_THREADS", "0", 1);
+  unsetenv("WAYLAND_DISPLAY");
+}
+
+VirtualDisplay::~VirtualDisplay() {
+  if (pid_ <= 0) return;
+  kill(pid_, SIGTERM);
+  waitpid(pid_, nullptr, 0);
+}
+
+Screen VirtualDisplay::capture() const {
+  // The server's file is an XWD: a header, a color map of 12-byte entries, rows of BGRX.
+  const std::string bytes = read_file(folder_.path() / "Xvfb_screen0");
+  const size_t header_bytes = header_word(bytes, 0);
+  const size_t row_bytes = header_word(bytes, 12);
+  const size_t color_count = header_word(bytes, 19);
+  Screen screen;
+  screen.width = static_cast<int>(header_word(bytes, 4));
+  screen.height = static_cast<int>(header_word(bytes, 5));
+  for (int y = 0; y < screen.height; ++y) {
+    size_t at = header_bytes + 12 * color_count + y * row_bytes;
+    for (int x = 0; x < screen.width; ++x, at += 4) {
+      screen.pixels.push_back({static_cast<uint8_t>(bytes[at + 2]),
+                               static_cast<uint8_t>(bytes[at + 1]),
+                               static_cast<uint8_t>(bytes[at])});
+    }
+  }
+  return screen;
+}
+
+}  // namespace tests

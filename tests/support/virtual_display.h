@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+#include "tests/support/run_program.h"
+
+namespace tests {
+
+/// Pixels of a screen, rows from the top.
+struct Screen {
+  int width = 0;
+  int height = 0;
+  std::vector<std::array<uint8_t, 3>> pixels;
+
+  const std::array<uint8_t, 3>& at(int x, int y) const {
+    return pixels[static_cast<size_t>(y) * width + x];
+  }
+};
+
+/// Whether a program of that name can be started.
+bool is_installed(const std::string& program);
+
+/// An X server without a screen, 1280x800, for as long as this object lives. Sets DISPLAY, and
+/// software OpenGL on one thread, in this process's environment.
+class VirtualDisplay {
+ public:
+  VirtualDisplay();
+  ~VirtualDisplay();
+  VirtualDisplay(const VirtualDisplay&) = delete;
+  VirtualDisplay& operator=(const VirtualDisplay&) = delete;
+
+  bool is_running() const { return !name_.empty(); }
+  /// What is on the screen at this moment.
+  Screen capture() const;
+
+ private:
+  TemporaryFolder folder_;  // the server keeps its pixels there
+  pid_t pid_ = -1;
+  std::string name_;
+};
+
+}  // namespace tests

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "tests/support/run_program.h"
+#include "tests/support/virtual_display.h"
+
+namespace tests {
+
+struct Rectangle {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+/// Runs the real program in a window of its own display, moves the real mouse, looks at pixels.
+class WindowTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!is_installed("Xvfb")) GTEST_SKIP() << "Xvfb is not installed";
+    if (!is_installed("xdotool")) GTEST_SKIP() << "xdotool is not installed";
+    display_ = std::make_unique<VirtualDisplay>();
+    if (!display_->is_running()) GTEST_SKIP() << "Xvfb does not start";
+    setenv("BOXWOOD_UI_LAYOUT", (folder_ / "layout.json").c_str(), 1);
+  }
+
+  void start(const std::vector<std::string>& arguments) {
+    std::vector<std::string> all{"view"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    program_ =
+        std::make_unique<ChildProgram>(BOXWOOD_PROGRAM, all, ErrorStream::pipe, folder_.path());
+  }
+
+  /// Waits, generously for sanitizers, and a moment between two looks.
+  static testing::AssertionResult wait_until(const std::function<bool()>& is_reached) {
+    for (int look = 0; look < 600; ++look) {
+      if (is_reached()) return testing::AssertionSuccess();
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    return testing::AssertionFailure() << "not reached within a minute";
+  }
+
+  std::optional<Rectangle> find_widget(const std::string& name) const {
+    std::ifstream file(folder_ / "layout.json");
+    const auto json = nlohmann::json::parse(file, nullptr, false);
+    if (!json.is_object() || !json.contains(name)) return std::nullopt;
+    const auto& at = json[name];
+    return Rectangle{at[0], at[1], at[2], at[3]};
+  }
+  testing::AssertionResult wait_for_widget(const std::string& name) const {
+    return wait_until([&] { return find_widget(name).has_value(); }) << " widget " << name;
+  }
+
+  static void xdotool(const std::vector<std::string>& arguments) {
+    const ProgramResult result = ChildProgram("xdotool", arguments).wait();
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  }
+  static void move_to(int x, int y) {
+    xdotool({"mousemove", std::to_string(x), std::to_string(y)});
+  }
+  static void press_key(const std::string& key) { xdotool({"key", key}); }
+
+  /// Puts the mouse at a part of the widget's width.
+  void move_to(const std::string& name, double part = 0.5) {
+    ASSERT_TRUE(wait_for_widget(name));
+    const Rectangle at = *find_widget(name);
+    move_to(at.x0 + static_cast<int>(part * (at.x1 - at.x0)), (at.y0 + at.y1) / 2);
+  }
+  void click(const std::string& name, double part = 0.5) {
+    move_to(name, part);
+    xdotool({"mousedown", "1"});
+    xdotool({"mouseup", "1"});
+  }
+  static void drag(int from_x, int from_y, int to_x, int to_y) {
+    move_to(from_x, from_y);
+    xdotool({"mousedown", "1"});
+    move_to((from_x + to_x) / 2, (from_y + to_y) / 2);
+    move_to(to_x, to_y);
+    xdotool({"mouseup", "1"});
+  }
+
+  /// Pixels of a widget as they are on the screen.
+  std::vector<std::array<uint8_t, 3>> look_at(const Rectangle& area) const {
+    const Screen screen = display_->capture();
+    std::vector<std::array<uint8_t, 3>> pixels;
+    for (int y = area.y0; y < std::min(area.y1, screen.height); ++y) {
+      for (int x = area.x0; x < std::min(area.x1, screen.width); ++x) {
+        pixels.push_back(screen.at(x, y));
+      }
+    }
+    return pixels;
+  }
+  std::vector<std::array<uint8_t, 3>> look_at(const std::string& name) const {
+    const auto area = find_widget(name);
+    return area ? look_at(*area) : std::vector<std::array<uint8_t, 3>>();
+  }
+
+  /// Waits until the picture and the panel have stood still for most of a second.
+  testing::AssertionResult wait_until_settled() const {
+    auto before = look_at(Rectangle{0, 0, 1280, 800});
+    int still_looks = 0;
+    return wait_until([&] {
+      auto now = look_at(Rectangle{0, 0, 1280, 800});
+      still_looks = now == before ? still_looks + 1 : 0;
+      before = std::move(now);
+      return still_looks >= 8;
+    });
+  }
+
+  double cpu_seconds() const {
+    std::ifstream file("/proc/" + std::to_string(program_->pid()) + "/stat");
+    std::string text((std::istreambuf_iterator<char>(file)), {});
+    std::istringstream fields(text.substr(text.rfind(')') + 2));
+    std::string skipped;
+    for (int i = 0; i < 11; ++i) fields >> skipped;
+    double user_ticks = 0, system_ticks = 0;
+    fields >> user_ticks >> system_ticks;
+    return (user_ticks + system_ticks) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  }
+
+  TemporaryFolder folder_;
+  std::unique_ptr<VirtualDisplay> display_;
+  std::unique_ptr<ChildProgram> program_;
+};
+
+}  // namespace tests
