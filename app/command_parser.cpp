@@ -18,6 +18,12 @@ class HelpFormatter : public CLI::Formatter {
   std::string make_usage(const CLI::App*, std::string) const override {
     return "\nUsage: " + usage_ + "\n";
   }
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override {
+    // CLI11 leaves two empty lines between groups.
+    return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, name, mode), "\n\n\n",
+                                         "\n\n");
+  }
 
  private:
   std::string usage_;
@@ -34,6 +40,7 @@ CommandParser::CommandParser(const std::string& name, const std::string& descrip
                              const std::string& usage, const std::string& examples)
     : name_(name), app_(description) {
   app_.formatter(std::make_shared<HelpFormatter>(usage));
+  app_.get_formatter()->label("Positionals", "Arguments");
   app_.get_formatter()->label("REQUIRED", "");
   app_.set_help_flag("-h,--help", "print this help");
   app_.footer("Examples:\n" + examples);

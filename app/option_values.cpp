@@ -99,7 +99,10 @@ CLI::Option* add_value(CLI::App& app, const std::string& names, const std::strin
           throw CLI::ValidationError(option_name, error.what());
         }
       };
-  return app.add_option_function<std::string>(names, checked, help)->type_name(value_name);
+  // The text stands for all that CLI11 would add, such as what an option needs.
+  return app.add_option_function<std::string>(names, checked, help)
+      ->type_name(value_name)
+      ->option_text(value_name);
 }
 
 CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& value_name,

@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "app/exit_code.h"
 #include "app/viewer/viewer.h"
+#include "app/viewer/window.h"
 #include "tracer/base/parallel.h"
 
 namespace app {
@@ -18,9 +20,12 @@ int view_command(const ViewOptions& options) {
                                             static_cast<size_t>(thread_count));
   try {
     return Viewer(options).run();
+  } catch (const WindowError& error) {
+    fmt::print(stderr, "boxwood: {}\n", error.what());
+    return exit_code::no_display;
   } catch (const std::exception& exception) {
     fmt::print(stderr, "boxwood: {}\n", exception.what());
-    return 2;
+    return exit_code::bad_input;
   }
 }
 

@@ -18,8 +18,8 @@ struct ViewOptions {
   std::optional<std::filesystem::path> ui_layout;   // see LayoutReport; else $BOXWOOD_UI_LAYOUT
 };
 
-/// Runs the window until it is closed. Returns 0, or 2 after one line on stderr when there is no
-/// display, no OpenGL, or nothing that could be shown.
+/// Runs the window until it is closed. Returns an exit_code: no_display (which includes no OpenGL)
+/// or bad_input after one line on stderr.
 int view_command(const ViewOptions& options);
 
 }  // namespace app
