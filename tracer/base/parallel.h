@@ -13,24 +13,58 @@
 #include <oneapi/tbb/parallel_invoke.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "tracer/base/handover.h"
+
 namespace tracer {
 
 inline int default_thread_count() {
   return oneapi::tbb::info::default_concurrency();
 }
 
+namespace parallel_detail {
+
+/// What a parallel call gives to its tasks, and they give back to it.
+class ForkJoin {
+ public:
+  ForkJoin() { fork_.give(); }
+  ~ForkJoin() { join_.take(); }
+  ForkJoin(const ForkJoin&) = delete;
+  ForkJoin& operator=(const ForkJoin&) = delete;
+
+  template <class F>
+  decltype(auto) run_task(F&& task) {
+    fork_.take();
+    const GiveAtEnd end{join_};
+    return task();
+  }
+
+ private:
+  struct GiveAtEnd {
+    Handover& join;
+    ~GiveAtEnd() { join.give(); }
+  };
+
+  Handover fork_;
+  Handover join_;
+};
+
+}  // namespace parallel_detail
+
 /// Calls f(begin, end) on parts of [begin, end) of about `grain` elements.
 template <class F>
 void parallel_for_ranges(size_t begin, size_t end, size_t grain, F&& f) {
   using Range = oneapi::tbb::blocked_range<size_t>;
-  oneapi::tbb::parallel_for(Range(begin, end, grain),
-                            [&](const Range& range) { f(range.begin(), range.end()); });
+  parallel_detail::ForkJoin fork_join;
+  oneapi::tbb::parallel_for(Range(begin, end, grain), [&](const Range& range) {
+    fork_join.run_task([&] { f(range.begin(), range.end()); });
+  });
 }
 
 /// Calls f(i) for each i in [begin, end), one task each.
 template <class F>
 void parallel_for_each_index(size_t begin, size_t end, F&& f) {
-  oneapi::tbb::parallel_for(begin, end, std::forward<F>(f));
+  parallel_detail::ForkJoin fork_join;
+  oneapi::tbb::parallel_for(begin, end, [&](size_t i) { fork_join.run_task([&] { f(i); }); });
 }
 
 /// Calls f(i) for each i in [0, count), handed out one by one in that order: the first are begun
@@ -39,14 +73,19 @@ template <class F>
 void parallel_in_order(size_t count, F&& f) {
   std::atomic<size_t> next{0};
   const int worker_count = oneapi::tbb::this_task_arena::max_concurrency();
+  parallel_detail::ForkJoin fork_join;
   oneapi::tbb::parallel_for(0, worker_count, [&](int) {
-    for (size_t i = next++; i < count; i = next++) f(i);
+    fork_join.run_task([&] {
+      for (size_t i = next++; i < count; i = next++) f(i);
+    });
   });
 }
 
+/// Calls f() and g(). Where a task elsewhere throws, either may be left out.
 template <class F, class G>
 void parallel_invoke(F&& f, G&& g) {
-  oneapi::tbb::parallel_invoke(std::forward<F>(f), std::forward<G>(g));
+  parallel_detail::ForkJoin fork_join;
+  oneapi::tbb::parallel_invoke([&] { fork_join.run_task(f); }, [&] { fork_join.run_task(g); });
 }
 
 /// Runs f() and all parallel work below it on exactly `thread_count` threads, which may be more
@@ -56,7 +95,8 @@ decltype(auto) with_thread_count(int thread_count, F&& f) {
   const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
                                             static_cast<size_t>(thread_count));
   oneapi::tbb::task_arena arena(thread_count);
-  return arena.execute(std::forward<F>(f));
+  parallel_detail::ForkJoin fork_join;
+  return arena.execute([&]() -> decltype(auto) { return fork_join.run_task(f); });
 }
 
 }  // namespace tracer
