@@ -283,6 +283,13 @@ TEST(ParseObj, cr_only_and_unterminated_files_split_into_chunks_too) {
   }
 }
 
+TEST(ParseObj, a_fault_beyond_the_kept_messages_is_read_like_the_first) {
+  std::string text;
+  for (int i = 0; i < 20; ++i) text += "v x# comment \\\nv 1 2 3\n";
+  EXPECT_EQ(parse(text).positions.size(), 40u);
+  EXPECT_EQ(parse(text).warnings.count(), 20);
+}
+
 TEST(ParseObj, nul_and_random_bytes_are_survived) {
   using namespace std::string_literals;
   const ObjFile file = parse(four_vertices + "\0\0\xff\xfe\x80 f 1\0\nf\0 1 2 3\nf 1 2 3\n"s);

@@ -164,6 +164,7 @@ void append_by_line(Warnings& to, const Warnings& a, const Warnings& b, const st
 
 template <class T>
 void copy_to(const std::vector<T>& from, std::vector<T>& to, uint64_t first) {
+  if (from.empty()) return;
   std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(first));
 }
 

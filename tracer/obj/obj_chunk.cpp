@@ -98,7 +98,7 @@ class ChunkParser {
   }
 
   void reject_color() {
-    warn([&] { return "vertex color: " + quote_text(cursor_.token()) + " is not a number"; });
+    warn([&] { return "vertex color: " + quote_text(cursor_.peek_token()) + " is not a number"; });
     push_color(Vec3f(no_color));
   }
 
@@ -139,7 +139,7 @@ class ChunkParser {
       const std::optional<double> number = cursor_.number();
       if (!number) {
         warn([&] {
-          return std::string(what) + ": " + quote_text(cursor_.token()) + " is not a number";
+          return std::string(what) + ": " + quote_text(cursor_.peek_token()) + " is not a number";
         });
         return i;
       }
