@@ -16,10 +16,8 @@ namespace app {
 int view_command(const ViewOptions& options) {
   const int thread_count =
       options.thread_count > 0 ? options.thread_count : tracer::default_thread_count();
-  const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
-                                            static_cast<size_t>(thread_count));
   try {
-    return Viewer(options).run();
+    return tracer::with_thread_count(thread_count, [&] { return Viewer(options).run(); });
   } catch (const WindowError& error) {
     fmt::print(stderr, "boxwood: {}\n", error.what());
     return exit_code::no_display;

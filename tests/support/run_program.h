@@ -7,6 +7,8 @@
 
 #include <sys/types.h>
 
+#include "tests/support/temporary_folder.h"
+
 namespace tests {
 
 struct ProgramResult {
@@ -51,19 +53,7 @@ inline ProgramResult run_boxwood(const std::vector<std::string>& arguments) {
   return ChildProgram(BOXWOOD_PROGRAM, arguments).wait();
 }
 
-/// A folder that exists as long as this object.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
+using tracer::TemporaryFolder;
 
 std::string read_file(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, const std::string& text);

@@ -24,6 +24,7 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
   /// Writes a file, with its folders, and returns its full path.
   std::filesystem::path write(const std::string& name, std::string_view bytes) const {
     const std::filesystem::path full_path = path_ / name;
