@@ -27,13 +27,14 @@ std::string read_line(int file) {
 
 }  // namespace
 
-bool is_installed(const std::string& program) {
+std::string find_program(const std::string& name) {
   const char* search_path = std::getenv("PATH");
   std::istringstream folders(search_path != nullptr ? search_path : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
-    if (access((folder + '/' + program).c_str(), X_OK) == 0) return true;
+    const std::string path = folder + '/' + name;
+    if (access(path.c_str(), X_OK) == 0) return path;
   }
-  return false;
+  return {};
 }
 
 VirtualDisplay::VirtualDisplay() {

@@ -25,8 +25,8 @@ struct Screen {
   }
 };
 
-/// Whether a program of that name can be started.
-bool is_installed(const std::string& program);
+/// The path of a program of that name; empty when there is none.
+std::string find_program(const std::string& name);
 
 /// An X server without a screen, 1280x800, for as long as this object lives. Sets DISPLAY, and
 /// software OpenGL on one thread, in this process's environment.

@@ -28,8 +28,8 @@ struct Rectangle {
 class WindowTest : public testing::Test {
  protected:
   void SetUp() override {
-    if (!is_installed("Xvfb")) GTEST_SKIP() << "Xvfb is not installed";
-    if (!is_installed("xdotool")) GTEST_SKIP() << "xdotool is not installed";
+    if (find_program("Xvfb").empty()) GTEST_SKIP() << "Xvfb is not installed";
+    if (find_program("xdotool").empty()) GTEST_SKIP() << "xdotool is not installed";
     display_ = std::make_unique<VirtualDisplay>();
     if (!display_->is_running()) GTEST_SKIP() << "Xvfb does not start";
     setenv("BOXWOOD_UI_LAYOUT", (folder_ / "layout.json").c_str(), 1);
@@ -63,9 +63,9 @@ class WindowTest : public testing::Test {
   }
 
   static void xdotool(const std::vector<std::string>& arguments) {
-    const ProgramResult result = ChildProgram("xdotool", arguments).wait();
+    const ProgramResult result = ChildProgram(find_program("xdotool"), arguments).wait();
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   static void move_to(int x, int y) {
     xdotool({"mousemove", std::to_string(x), std::to_string(y)});
