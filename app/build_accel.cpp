@@ -1,19 +1,28 @@
 // SPDX-License-Identifier: MIT
 #include "app/build_accel.h"
 
+#include <optional>
+#include <utility>
+
+#include "app/session_changes.h"
+
 namespace app {
 
+bool is_same_tree(const TreeKey& a, const TreeKey& b) {
+  if (a.builder == nullptr && b.builder == nullptr) return true;
+  return a.builder == b.builder && a.layout == b.layout &&
+         !differs(a.settings, b.settings, tracer::Effect::rebuild);
+}
+
 std::shared_ptr<const tracer::Accel> build_accel(std::shared_ptr<const tracer::Mesh> mesh,
-                                                 const tracer::Builder* builder,
-                                                 const tracer::BuildSettings& settings,
-                                                 tracer::Progress& progress) {
-  auto accel = std::make_shared<tracer::Accel>();
-  accel->mesh = std::move(mesh);
-  if (builder) {
+                                                 const TreeKey& key, tracer::Progress& progress) {
+  std::optional<tracer::BvhTree> tree;
+  if (key.builder != nullptr) {
     progress.start_stage("building the tree");
-    accel->tree = builder->build(tracer::primitive_boxes(*accel->mesh), settings, progress);
+    tree = key.builder->build(tracer::primitive_boxes(*mesh), key.settings, progress);
   }
-  return accel;
+  return std::make_shared<const tracer::Accel>(
+      make_accel(std::move(mesh), std::move(tree), *key.layout));
 }
 
 }  // namespace app

@@ -8,10 +8,18 @@
 
 namespace app {
 
-/// A tree over the mesh by `builder`, or none where that is nullptr: brute force. Throws Cancelled.
+/// Which tree, and how rays go through it.
+struct TreeKey {
+  const tracer::Builder* builder = &tracer::builders().front();  // nullptr: none, brute force
+  const tracer::Layout* layout = &tracer::layouts().front();
+  tracer::BuildSettings settings;
+};
+
+/// Whether both ask for the same tree; without a builder nothing else matters.
+bool is_same_tree(const TreeKey& a, const TreeKey& b);
+
+/// Builds what `key` asks for over the mesh. Throws Cancelled.
 std::shared_ptr<const tracer::Accel> build_accel(std::shared_ptr<const tracer::Mesh> mesh,
-                                                 const tracer::Builder* builder,
-                                                 const tracer::BuildSettings& settings,
-                                                 tracer::Progress& progress);
+                                                 const TreeKey& key, tracer::Progress& progress);
 
 }  // namespace app

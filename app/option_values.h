@@ -68,4 +68,13 @@ std::string names_in(std::span<const Entry> table) {
   return names;
 }
 
+/// The entry of that name. Throws std::invalid_argument with the names there are.
+template <class Entry>
+const Entry* chosen_from(std::span<const Entry> table, const std::string& name) {
+  for (const Entry& entry : table) {
+    if (entry.name == name) return &entry;
+  }
+  throw std::invalid_argument(fmt::format("'{}' is none of {}", name, names_in(table)));
+}
+
 }  // namespace app

@@ -74,10 +74,7 @@ void add_picture(CLI::App& app, RenderOptions& options) {
   add_value(app, "--integrator", "NAME",
             fmt::format("{} [{}]", names_in(tracer::integrators()), options.integrator->name),
             [&](const std::string& text) {
-              options.integrator = tracer::find_integrator(text);
-              if (options.integrator) return;
-              throw std::invalid_argument(
-                  fmt::format("'{}' is none of {}", text, names_in(tracer::integrators())));
+              options.integrator = chosen_from(tracer::integrators(), text);
             })
       ->group("Picture");
   add_fields(app, "Picture", options.render);
@@ -111,6 +108,12 @@ void add_tree(CLI::App& app, RenderOptions& options) {
               options.builder = tracer::find_builder(text);
               if (options.builder || text == "off") return;
               throw std::invalid_argument(fmt::format("'{}' is none of {}, off", text, names));
+            })
+      ->group("Bounding volume hierarchy");
+  add_value(app, "--layout", "NAME",
+            fmt::format("{} [{}]", names_in(tracer::layouts()), options.layout->name),
+            [&options](const std::string& text) {
+              options.layout = chosen_from(tracer::layouts(), text);
             })
       ->group("Bounding volume hierarchy");
   add_fields(app, "Bounding volume hierarchy", options.build);

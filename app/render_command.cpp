@@ -78,7 +78,8 @@ class RenderJob {
     resolve();
 
     const Stopwatch build_start;
-    world_.accel = build_accel(imported_.scene.mesh, options_.builder, options_.build, progress_);
+    world_.accel = build_accel(imported_.scene.mesh,
+                               {options_.builder, options_.layout, options_.build}, progress_);
     report_.seconds.build = build_start.seconds();
     if (world_.accel->tree) report_.tree = measure(*world_.accel->tree);
   }

@@ -31,6 +31,7 @@ struct RenderOptions {
   std::optional<tracer::Vec3d> sky;
 
   const tracer::Builder* builder = &tracer::builders().front();  // nullptr: brute force
+  const tracer::Layout* layout = &tracer::layouts().front();
   tracer::BuildSettings build;
   int thread_count = 0;  // 0: all there are
 

@@ -36,6 +36,7 @@ Json used_settings(const RenderOptions& options, const RenderReport& report) {
                    {"sky", to_json(report.view.sky)},
                    {"integrator", options.integrator->name},
                    {"bvh", builder_name(options)},
+                   {"layout", options.layout->name},
                    {"threads", options.thread_count}};
   const auto add = [&](const auto& value, const auto& field) { settings[field.name] = value; };
   for_each_field(options.build, add);
@@ -78,8 +79,7 @@ std::map<std::string, std::string> picture_metadata(const RenderOptions& options
           {"Model", options.model.filename().string()},
           {"Samples", std::to_string(report.whole_sample_count)},
           {"Seed", std::to_string(options.render.seed)},
-          {"Integrator", std::string(options.integrator->name)},
-          {"BVH", builder_name(options)}};
+          {"Integrator", std::string(options.integrator->name)}};
 }
 
 std::string summary(const RenderOptions& options, const RenderReport& report) {

@@ -28,7 +28,7 @@ struct Job {
 };
 
 TreeKey tree_key_of(const Edits& edits) {
-  return {edits.builder, edits.build};
+  return {edits.builder, edits.layout, edits.build};
 }
 
 }  // namespace

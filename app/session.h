@@ -30,6 +30,7 @@ struct Edits {
   const tracer::Integrator* integrator = nullptr;  // nullptr: the first of the table
   tracer::RenderSettings render;
   const tracer::Builder* builder = nullptr;  // nullptr: BVH off, brute force
+  const tracer::Layout* layout = &tracer::layouts().front();
   tracer::BuildSettings build;
   int sample_limit = 1024;
 };

@@ -34,7 +34,7 @@ inline bool is_new_picture(const Edits& before, const Edits& after) {
 
 /// Whether another tree is wanted.
 inline bool is_new_tree(const Edits& before, const Edits& after) {
-  return before.builder != after.builder ||
+  return before.builder != after.builder || before.layout != after.layout ||
          differs(before.build, after.build, tracer::Effect::rebuild);
 }
 

@@ -4,8 +4,6 @@
 #include <chrono>
 #include <utility>
 
-#include "app/session_changes.h"
-
 namespace app {
 namespace {
 
@@ -16,11 +14,6 @@ double seconds_since(Clock::time_point start) {
 }
 
 }  // namespace
-
-bool is_same_tree(const TreeKey& a, const TreeKey& b) {
-  if (a.builder != b.builder) return false;
-  return a.builder == nullptr || !differs(a.settings, b.settings, tracer::Effect::rebuild);
-}
 
 LoadedModel load_model(const std::filesystem::path& path, tracer::Progress& progress) {
   const auto start = Clock::now();
@@ -36,17 +29,13 @@ LoadedModel load_model(const std::filesystem::path& path, tracer::Progress& prog
 BuiltTree build_tree(const std::shared_ptr<const tracer::Mesh>& mesh, const TreeKey& key,
                      tracer::Progress& progress) {
   BuiltTree built{.key = key, .accel = nullptr, .metrics = {}, .seconds = 0};
-  auto accel = std::make_shared<tracer::Accel>();
-  accel->mesh = mesh;
-  if (key.builder != nullptr) {
-    progress.start_stage("building the tree");
-    const auto start = Clock::now();
-    accel->tree = key.builder->build(primitive_boxes(*mesh), key.settings, progress);
+  const auto start = Clock::now();
+  built.accel = build_accel(mesh, key, progress);
+  if (built.accel->tree) {
     built.seconds = seconds_since(start);
-    built.metrics = measure(*accel->tree);
+    built.metrics = measure(*built.accel->tree);
   }
   progress.throw_if_stopped();
-  built.accel = std::move(accel);
   return built;
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "app/build_accel.h"
 #include "tracer/base/progress.h"
 #include "tracer/bvh/build.h"
 #include "tracer/bvh/metrics.h"
@@ -14,15 +15,6 @@
 #include "tracer/scene/import_obj.h"
 
 namespace app {
-
-/// Which tree: nullptr for none.
-struct TreeKey {
-  const tracer::Builder* builder = nullptr;
-  tracer::BuildSettings settings;
-};
-
-/// Whether both ask for the same tree; without a builder the settings don't matter.
-bool is_same_tree(const TreeKey& a, const TreeKey& b);
 
 struct BuiltTree {
   TreeKey key;

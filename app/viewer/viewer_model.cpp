@@ -104,6 +104,7 @@ void Viewer::send_edits() {
                 .integrator = settings_.integrator,
                 .render = settings_.render,
                 .builder = settings_.is_bvh_on ? settings_.builder : nullptr,
+                .layout = settings_.layout,
                 .build = settings_.build,
                 .sample_limit = settings_.sample_limit});
 }

@@ -65,6 +65,7 @@ void draw_tree_settings(const Ui& ui, ViewerSettings& settings) {
                  "The tree over the triangles. Without it every ray meets every triangle; the "
                  "picture is the same to the last bit.");
   draw_choice(ui, "Builder", "builder", tracer::builders(), settings.builder);
+  draw_choice(ui, "Traversal", "layout", tracer::layouts(), settings.layout);
   draw_fields(ui, settings.build);
 }
 

@@ -12,6 +12,7 @@ enum class UpAxis { automatic, y, z };
 struct ViewerSettings {
   bool is_bvh_on = true;
   const tracer::Builder* builder = &tracer::builders().front();  // while the BVH is on
+  const tracer::Layout* layout = &tracer::layouts().front();
   tracer::BuildSettings build;
   const tracer::Integrator* integrator = &tracer::integrators().front();
   tracer::Shading shading = tracer::Shading::flat;
