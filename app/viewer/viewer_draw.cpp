@@ -60,7 +60,7 @@ void Viewer::draw_header(const Ui& ui) {
   ImGui::TextUnformatted(name.c_str());
   ImGui::PopClipRect();
   ImGui::PopFont();
-  tooltip(ui, adopted_path_);
+  if (adopted_generation_ > 0) finish_control(ui, "model", adopted_path_);
   ImGui::SameLine(buttons_left);
   if (ImGui::Button("Open", ImVec2(button_width, 0))) execute(Command::open);
   finish_control(ui, "open", "Choose a model (Ctrl O)");

@@ -8,7 +8,7 @@
 
 namespace tests {
 
-/// Writes an OBJ of a ball with bumps: 4 * rings^2 triangles, those at the poles degenerate.
+/// Writes an OBJ of a ball with bumps: 4 * rings * (rings - 1) triangles.
 inline void write_ball(const std::filesystem::path& path, int rings, double bump = 0.1) {
   std::ofstream file(path);
   const int segments = 2 * rings;
@@ -26,7 +26,8 @@ inline void write_ball(const std::filesystem::path& path, int rings, double bump
       const int next = (segment + 1) % segments;
       const int a = ring * segments + segment + 1;
       const int b = ring * segments + next + 1;
-      file << "f " << a << ' ' << b << ' ' << b + segments << '\n';
+      if (ring > 0) file << "f " << a << ' ' << b << ' ' << b + segments << '\n';
+      if (ring == rings - 1) continue;
       file << "f " << a << ' ' << b + segments << ' ' << a + segments << '\n';
     }
   }

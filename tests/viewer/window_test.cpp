@@ -16,22 +16,18 @@ class BallWindowTest : public WindowTest {
     if (IsSkipped()) return;
     write_ball(folder_.path() / "ball.obj", 20);
     start({"ball.obj"});
-    ASSERT_TRUE(wait_for_widget("sample-limit"));
-    set_sample_limit("2");
-    move_to(300, 20);
+    ASSERT_TRUE(wait_for_widget("model"));
+    limit_to_one_sample();
     ASSERT_TRUE(wait_until_settled());
   }
 
-  /// By typing it into the slider, which a click with Ctrl turns into a text field.
-  void set_sample_limit(const std::string& limit) {
-    move_to("sample-limit");
-    xdotool({"keydown", "ctrl"});
-    xdotool({"mousedown", "1"});
-    xdotool({"mouseup", "1"});
-    xdotool({"keyup", "ctrl"});
-    xdotool({"type", limit});
-    xdotool({"keydown", "Return"});
-    xdotool({"keyup", "Return"});
+  /// One sample a pixel, so that every picture is soon done and alike however fast this machine is:
+  /// the slider's left end, then another view and back, because what is traced already is kept.
+  void limit_to_one_sample() {
+    click("sample-limit", 0.01);
+    move_to(300, 20);
+    press_key("3");
+    press_key("Home");
   }
 
   /// The part of the panel below the settings.
@@ -72,12 +68,14 @@ TEST_F(BallWindowTest, the_wheel_and_axis_keys_move_the_camera) {
   xdotool({"click", "4"});
   ASSERT_TRUE(wait_until_settled());
   pictures.insert(look_at("picture"));
+  EXPECT_EQ(pictures.size(), 2u) << "wheel";
   for (const char* key : {"1", "3", "7", "ctrl+3"}) {
+    const size_t before = pictures.size();
     press_key(key);
     ASSERT_TRUE(wait_until_settled());
     pictures.insert(look_at("picture"));
+    EXPECT_EQ(pictures.size(), before + 1) << key;
   }
-  EXPECT_EQ(pictures.size(), 6u);
 }
 
 TEST_F(BallWindowTest, without_the_tree_the_picture_stays_and_the_numbers_change) {
@@ -181,9 +179,8 @@ TEST_F(BallWindowTest, a_saved_view_is_opened_again) {
   EXPECT_EQ(program_->wait().exit_code, 0);
   std::filesystem::remove(folder_.path() / "layout.json");
   start({"ball.obj"});
-  ASSERT_TRUE(wait_for_widget("sample-limit"));
-  set_sample_limit("2");
-  move_to(300, 20);
+  ASSERT_TRUE(wait_for_widget("model"));
+  limit_to_one_sample();
   ASSERT_TRUE(wait_until_settled());
   EXPECT_EQ(look_at("picture"), saved);
 }
