@@ -220,11 +220,11 @@ TEST_F(WindowTest, closing_it_during_a_load_ends_the_program) {
   EXPECT_EQ(program_->wait(30).exit_code, 0);
 }
 
-TEST(Window, without_a_display_it_says_so_in_one_line_and_ends_with_2) {
+TEST(Window, without_a_display_it_says_so_in_one_line_and_ends_with_3) {
   setenv("DISPLAY", ":4711", 1);
   unsetenv("WAYLAND_DISPLAY");
   const ProgramResult result = run_boxwood({"view"});
-  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.exit_code, 3);
   EXPECT_NE(result.err.find("display"), std::string::npos) << result.err;
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
 }
