@@ -37,6 +37,9 @@ void control_label(const Ui& ui, const std::string& label) {
 
 void tooltip(const Ui& ui, const std::string& text) {
   if (text.empty() || !ImGui::IsItemHovered()) return;
+  // Beside the panel, level with the item: over the controls it would hide the next one.
+  ImGui::SetNextWindowPos(ImVec2(ImGui::GetWindowPos().x - 6 * ui.scale, ImGui::GetItemRectMin().y),
+                          ImGuiCond_Always, ImVec2(1, 0));
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(260 * ui.scale);
   ImGui::TextUnformatted(text.c_str());
