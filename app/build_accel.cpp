@@ -22,7 +22,7 @@ std::shared_ptr<const tracer::Accel> build_accel(std::shared_ptr<const tracer::M
     tree = key.builder->build(tracer::primitive_boxes(*mesh), key.settings, progress);
   }
   return std::make_shared<const tracer::Accel>(
-      make_accel(std::move(mesh), std::move(tree), *key.layout));
+      make_accel(std::move(mesh), std::move(tree), *key.layout, progress));
 }
 
 }  // namespace app

@@ -81,7 +81,7 @@ class RenderJob {
     world_.accel = build_accel(imported_.scene.mesh,
                                {options_.builder, options_.layout, options_.build}, progress_);
     report_.seconds.build = build_start.seconds();
-    if (world_.accel->tree) report_.tree = measure(*world_.accel->tree);
+    report_.tree = measure(*world_.accel);
   }
 
   void print_loading_warnings() {

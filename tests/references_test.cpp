@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <filesystem>
+#include <fstream>
 #include <set>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -16,24 +19,36 @@ std::set<std::string> source_keys(const std::string& text) {
   return {keys.begin(), keys.end()};
 }
 
-std::string references() {
+std::string text_of(const std::filesystem::path& path) {
   std::ostringstream text;
-  text << std::ifstream(BOXWOOD_SOURCE_DIR "/docs/references.md").rdbuf();
+  text << std::ifstream(path).rdbuf();
   return text.str();
 }
 
-TEST(References, every_key_in_the_sources_is_listed) {
+std::string references() {
+  return text_of(BOXWOOD_SOURCE_DIR "/docs/references.md");
+}
+
+TEST(References, every_key_is_listed_and_every_listed_key_is_used) {
   const std::set<std::string> listed = source_keys(references());
-  int key_count = 0;
-  for (const char* folder : {"tracer", "app"}) {
-    for (const SourceFile& file : source_files(folder)) {
-      for (const std::string& key : source_keys(file.text)) {
-        EXPECT_TRUE(listed.contains(key)) << file.path << ": [" << key << ']';
-        ++key_count;
-      }
+  std::set<std::string> used;
+  const auto note = [&](const std::filesystem::path& path, const std::string& text) {
+    for (const std::string& key : source_keys(text)) {
+      EXPECT_TRUE(listed.contains(key)) << path << ": [" << key << ']';
+      used.insert(key);
+    }
+  };
+  for (const char* folder : {"tracer", "app", "assets"}) {
+    for (const SourceFile& file : source_files(folder)) note(file.path, file.text);
+  }
+  for (const char* folder : {"docs", "assets"}) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(BOXWOOD_SOURCE_DIR) / folder)) {
+      const bool is_text = entry.path().extension() == ".md";
+      if (is_text && entry.path().filename() != "references.md") note(entry, text_of(entry));
     }
   }
-  EXPECT_GT(key_count, 5);
+  EXPECT_EQ(used, listed);
 }
 
 TEST(References, are_listed_once_each_in_alphabetical_order) {

@@ -74,8 +74,8 @@ void register_model(const std::string& name, const std::string& path) {
         ->UseRealTime()
         ->Unit(benchmark::kMillisecond);
     Progress progress;
-    const Accel accel =
-        make_accel(mesh, builder.build(primitive_boxes(*mesh), {}, progress), layouts().front());
+    const Accel accel = make_accel(mesh, builder.build(primitive_boxes(*mesh), {}, progress),
+                                   layouts().front(), progress);
     for (const auto& [kind, rays] :
          {std::pair{"camera", camera_rays(*mesh)}, std::pair{"random", random_rays(*mesh)}}) {
       benchmark::RegisterBenchmark(

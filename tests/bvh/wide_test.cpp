@@ -58,10 +58,10 @@ void expect_the_bits_of_the_reference(Mesh mesh_value, const BuildSettings& sett
   for (const Builder& builder : builders()) {
     Progress progress;
     const BvhTree tree = builder.build(boxes, settings, progress);
-    const Accel binary = make_accel(mesh, tree, *find_layout("binary"));
+    const Accel binary = make_accel(mesh, tree, *find_layout("binary"), progress);
     RayCaster reference(binary, stop);
     for_each_instruction_set([&](const std::string& name) {
-      const Accel wide = make_accel(mesh, tree, *find_layout("wide"));
+      const Accel wide = make_accel(mesh, tree, *find_layout("wide"), progress);
       ASSERT_TRUE(wide.wide && !binary.wide);
       RayCaster kernel(wide, stop);
       RandomSource random(11);
@@ -114,6 +114,39 @@ TEST(Wide, gives_the_lowest_of_coincident_triangles) {
 
 TEST(Wide, gives_the_bits_of_the_reference_on_a_teapot_in_a_stadium) {
   expect_the_bits_of_the_reference(teapot_in_a_stadium());
+}
+
+TEST(Wide, gives_the_bits_of_the_reference_on_denormal_quads_with_long_directions) {
+  const float size = 4e-44f;
+  Mesh quad = make_test_mesh({{0, 0, 0}, {size, 0, 0}, {size, size, 0}, {0, size, 0}},
+                             {{0, 1, 2}, {0, 2, 3}});
+  const auto mesh = std::make_shared<const Mesh>(std::move(quad));
+  Progress progress;
+  const StopFlag stop;
+  const BvhTree tree = builders().front().build(primitive_boxes(*mesh), {}, progress);
+  const Accel wide = make_accel(mesh, tree, *find_layout("wide"), progress);
+  const Accel none = make_accel(mesh, std::nullopt, *find_layout("wide"), progress);
+  RayCaster kernel(wide, stop);
+  RayCaster brute_force(none, stop);
+  RandomSource random(5);
+  int hits = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3f target = size * random.vector(-0.2f, 1.2f);
+    const Vec3f direction = random.vector(-1, 1);
+    const Ray ray{.origin = target - size * direction, .direction = direction};
+    const Hit expected = brute_force.closest_hit(ray);
+    ASSERT_EQ(kernel.closest_hit(ray).primitive, expected.primitive) << i;
+    hits += expected.is_hit();
+  }
+  EXPECT_GT(hits, 100);
+}
+
+TEST(Wide, a_stopped_layout_is_cancelled) {
+  const auto mesh = std::make_shared<const Mesh>(rough_ball(40, 0, 1));
+  Progress progress;
+  const BvhTree tree = builders().front().build(primitive_boxes(*mesh), {}, progress);
+  progress.request_stop();
+  EXPECT_THROW(make_accel(mesh, tree, *find_layout("wide"), progress), Cancelled);
 }
 
 TEST(Wide, gives_the_bits_of_the_reference_on_one_triangle) {

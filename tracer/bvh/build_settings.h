@@ -8,6 +8,9 @@
 
 namespace tracer {
 
+/// What every traversal's stack has room for; builders go no deeper, whatever the settings say.
+inline constexpr int max_tree_depth = 64;
+
 struct BuildSettings {
   int max_depth = 30;  // no leaf lies deeper; the root has depth 0
   int leaf_size = 4;   // a node of at most this many primitives is not split
@@ -17,7 +20,7 @@ template <class Settings, class F>
 requires std::same_as<std::remove_const_t<Settings>, BuildSettings>
 void for_each_field(Settings& settings, F&& f) {
   f(settings.max_depth,
-    Field<int>{"max-depth", 1, 64, "levels of the tree at most", Effect::rebuild});
+    Field<int>{"max-depth", 1, max_tree_depth, "levels of the tree at most", Effect::rebuild});
   f(settings.leaf_size,
     Field<int>{"leaf-size", 1, 64, "nodes of so few triangles are not split", Effect::rebuild});
 }

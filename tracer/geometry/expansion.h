@@ -40,8 +40,6 @@ inline RoundedDouble two_product(double a, double b) {
 template <int capacity>
 class Expansion {
  public:
-  static constexpr int max_terms = capacity;
-
   void add(double b) {
     double carry = b;
     int kept = 0;

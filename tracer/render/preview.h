@@ -2,11 +2,27 @@
 // Integrators that show shape within a sample or two.
 #pragma once
 
+#include <optional>
+#include <utility>
+
 #include "tracer/render/integrator.h"
 #include "tracer/render/recorder.h"
 #include "tracer/render/sampling.h"
 
 namespace tracer {
+
+/// What the camera ray meets first; nullopt, with `miss` recorded as the sky, where it meets
+/// nothing.
+template <class Recorder>
+std::optional<std::pair<Hit, Surface>> first_surface(const World& world, RayCaster& rays,
+                                                     const Ray& ray, const Vec3d& miss,
+                                                     Recorder& recorder) {
+  recorder.camera(ray);
+  const Hit hit = rays.closest_hit(ray);
+  if (hit.is_hit()) return std::pair{hit, surface_at(*world.scene, hit, Vec3d(ray.direction))};
+  recorder.sky(ray, Vec3d(1), miss);
+  return std::nullopt;
+}
 
 /// Albedo times the cosine between view and shading normal, as if lit by a lamp on the camera,
 /// plus emission; the sky where nothing is hit.
@@ -14,15 +30,11 @@ struct EyeLight {
   template <class Recorder>
   static Vec3d radiance(const World& world, RayCaster& rays, const Ray& ray, Sampler&,
                         const RenderSettings&, Recorder& recorder) {
-    recorder.camera(ray);
-    const Hit hit = rays.closest_hit(ray);
-    if (!hit.is_hit()) {
-      recorder.sky(ray, Vec3d(1), world.sky);
-      return world.sky;
-    }
-    const Vec3d view(ray.direction);
-    const Surface surface = surface_at(*world.scene, hit, view);
-    const double cosine = std::abs(glm::dot(surface.shading_normal, unit_or(view, Vec3d(0))));
+    const auto first = first_surface(world, rays, ray, world.sky, recorder);
+    if (!first) return world.sky;
+    const auto& [hit, surface] = *first;
+    const Vec3d view = unit_or(Vec3d(ray.direction), Vec3d(0));
+    const double cosine = std::abs(glm::dot(surface.shading_normal, view));
     const Vec3d radiance = surface.albedo * cosine + surface.emission;
     recorder.hit(ray, hit, surface, Vec3d(1), radiance);
     return radiance;
@@ -35,13 +47,9 @@ struct Normals {
   template <class Recorder>
   static Vec3d radiance(const World& world, RayCaster& rays, const Ray& ray, Sampler&,
                         const RenderSettings&, Recorder& recorder) {
-    recorder.camera(ray);
-    const Hit hit = rays.closest_hit(ray);
-    if (!hit.is_hit()) {
-      recorder.sky(ray, Vec3d(1), Vec3d(0));
-      return Vec3d(0);
-    }
-    const Surface surface = surface_at(*world.scene, hit, Vec3d(ray.direction));
+    const auto first = first_surface(world, rays, ray, Vec3d(0), recorder);
+    if (!first) return Vec3d(0);
+    const auto& [hit, surface] = *first;
     const Vec3d radiance = 0.5 * (surface.shading_normal + Vec3d(1));
     recorder.hit(ray, hit, surface, Vec3d(1), radiance);
     return radiance;
@@ -54,13 +62,9 @@ struct AmbientOcclusion {
   template <class Recorder>
   static Vec3d radiance(const World& world, RayCaster& rays, const Ray& ray, Sampler& sampler,
                         const RenderSettings&, Recorder& recorder) {
-    recorder.camera(ray);
-    const Hit hit = rays.closest_hit(ray);
-    if (!hit.is_hit()) {
-      recorder.sky(ray, Vec3d(1), Vec3d(1));
-      return Vec3d(1);
-    }
-    const Surface surface = surface_at(*world.scene, hit, Vec3d(ray.direction));
+    const auto first = first_surface(world, rays, ray, Vec3d(1), recorder);
+    if (!first) return Vec3d(1);
+    const auto& [hit, surface] = *first;
     const Vec3d direction = sample_cosine_hemisphere(surface.shading_normal, sampler.next_2d());
     const Ray probe{.origin = offset_origin(surface),
                     .direction = Vec3f(direction),

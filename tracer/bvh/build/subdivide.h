@@ -46,7 +46,8 @@ class Subdivision {
               Progress& progress)
       : splitter_(splitter),
         primitive_count_(primitive_count),
-        settings_(settings),
+        leaf_size_(settings.leaf_size),
+        max_depth_(std::min(settings.max_depth, max_tree_depth)),
         progress_(progress) {}
 
   /// Nodes as BvhTree wants them; leaves hold positions.
@@ -79,7 +80,7 @@ class Subdivision {
       nodes[node] = {bounds, range.begin, range.count()};
       return;
     }
-    const uint32_t middle = splitter_.split(range, bounds, settings_.max_depth - depth);
+    const uint32_t middle = splitter_.split(range, bounds, max_depth_ - depth);
     const auto children = static_cast<uint32_t>(nodes.size());
     nodes[node] = {bounds, children, 0};
     nodes.resize(nodes.size() + 2);
@@ -94,7 +95,7 @@ class Subdivision {
       report_placed(range.count());
       return;
     }
-    const uint32_t middle = splitter_.split(range, bounds, settings_.max_depth - depth);
+    const uint32_t middle = splitter_.split(range, bounds, max_depth_ - depth);
     std::vector<BvhNode> left, right;
     parallel_invoke(
         [&] {
@@ -125,8 +126,7 @@ class Subdivision {
   }
 
   bool is_leaf(PrimitiveRange range, int depth) const {
-    return depth >= settings_.max_depth ||
-           range.count() <= static_cast<uint32_t>(std::max(settings_.leaf_size, 1));
+    return depth >= max_depth_ || range.count() <= static_cast<uint32_t>(std::max(leaf_size_, 1));
   }
 
   void report_placed(uint32_t count) {
@@ -136,7 +136,8 @@ class Subdivision {
 
   Splitter& splitter_;
   const uint32_t primitive_count_;
-  const BuildSettings& settings_;
+  int leaf_size_;
+  int max_depth_;
   Progress& progress_;
   std::atomic<uint32_t> placed_{0};
 };

@@ -2,6 +2,7 @@
 #include "tracer/bvh/layout/wide_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdlib>
@@ -22,7 +23,8 @@ namespace {
 /// Follows the binary tree twice: first to count nodes and blocks, then to fill them.
 class Collapse {
  public:
-  Collapse(const BvhTree& tree, const Mesh& mesh, int width) : tree_(tree), mesh_(mesh) {
+  Collapse(const BvhTree& tree, const Mesh& mesh, int width, Progress& progress)
+      : tree_(tree), mesh_(mesh), progress_(progress) {
     wide_.width = width;
   }
 
@@ -33,7 +35,7 @@ class Collapse {
     wide_.nodes = FloatRows(node_count_ * WideTree::rows_a_node, wide_.width);
     wide_.blocks = FloatRows(block_count_ * WideTree::rows_a_block, wide_.width);
     wide_.block_infos.resize(block_count_);
-    wide_.node_count = static_cast<uint32_t>(node_count_);
+    progress_.start_stage("laying out the tree");
     node_count_ = block_count_ = 0;
     const Box& bounds = tree_.nodes[0].bounds;
     for (int axis = 0; axis < 3; ++axis) {
@@ -48,6 +50,14 @@ class Collapse {
   struct Range {
     uint32_t first = 0;
     uint32_t count = 0;
+  };
+
+  struct Children {
+    std::array<uint32_t, 16> nodes;
+    size_t count;
+
+    const uint32_t* begin() const { return nodes.data(); }
+    const uint32_t* end() const { return nodes.data() + count; }
   };
 
   // Primitives below each node; they are contiguous in tree.primitives.
@@ -73,21 +83,22 @@ class Collapse {
     return (ranges_[node].count + static_cast<size_t>(wide_.width) - 1) / wide_.width;
   }
 
-  std::vector<uint32_t> children_of(uint32_t node) const {
+  Children children_of(uint32_t node) const {
     // A root that is a leaf becomes the one child of a node.
-    if (becomes_leaf(node)) return {node};
-    std::vector<uint32_t> children{tree_.nodes[node].first, tree_.nodes[node].first + 1};
-    while (children.size() < static_cast<size_t>(wide_.width)) {
+    if (becomes_leaf(node)) return {{node}, 1};
+    Children children{{tree_.nodes[node].first, tree_.nodes[node].first + 1}, 2};
+    while (children.count < static_cast<size_t>(wide_.width)) {
       double largest_area = -1;
       size_t largest = 0;
-      for (size_t i = 0; i < children.size(); ++i) {
-        const double area = tree_.nodes[children[i]].bounds.half_area();
-        if (!becomes_leaf(children[i]) && area > largest_area) largest_area = area, largest = i;
+      for (size_t i = 0; i < children.count; ++i) {
+        if (becomes_leaf(children.nodes[i])) continue;
+        const double area = tree_.nodes[children.nodes[i]].bounds.half_area();
+        if (area > largest_area) largest_area = area, largest = i;
       }
       if (largest_area < 0) break;
-      const uint32_t opened = children[largest];
-      children[largest] = tree_.nodes[opened].first;
-      children.push_back(tree_.nodes[opened].first + 1);
+      const uint32_t opened = children.nodes[largest];
+      children.nodes[largest] = tree_.nodes[opened].first;
+      children.nodes[children.count++] = tree_.nodes[opened].first + 1;
     }
     return children;
   }
@@ -106,16 +117,16 @@ class Collapse {
   /// The root is always a node, so that every leaf is met through the slabs of its box.
   WideChild fill_node(uint32_t node) {
     const size_t index = node_count_++;
-    const std::vector<uint32_t> children = children_of(node);
+    const Children children = children_of(node);
     for (size_t lane = 0; lane < static_cast<size_t>(wide_.width); ++lane) {
-      const bool is_used = lane < children.size();
-      const Box box = is_used ? tree_.nodes[children[lane]].bounds : Box{};
+      const bool is_used = lane < children.count;
+      const Box box = is_used ? tree_.nodes[children.nodes[lane]].bounds : Box{};
       for (int axis = 0; axis < 3; ++axis) {
         const size_t row = index * WideTree::rows_a_node + 2 * static_cast<size_t>(axis);
         wide_.nodes.row(row)[lane] = box.min[axis];
         wide_.nodes.row(row + 1)[lane] = box.max[axis];
       }
-      const WideChild child = is_used ? fill(children[lane]) : WideChild::node(0);
+      const WideChild child = is_used ? fill(children.nodes[lane]) : WideChild::node(0);
       wide_.nodes.row(index * WideTree::rows_a_node + 6)[lane] = std::bit_cast<float>(child.bits);
     }
     return WideChild::node(static_cast<uint32_t>(index));
@@ -130,6 +141,7 @@ class Collapse {
                                         std::numeric_limits<float>::infinity());
     const auto width = static_cast<size_t>(wide_.width);
     for (size_t block = 0; block < blocks; ++block) {
+      if ((first_block + block) % 1024 == 0) report(first_block + block);
       const size_t count = std::min(width, ranges_[node].count - block * width);
       wide_.block_infos[first_block + block] = {extent, static_cast<uint16_t>(count),
                                                 static_cast<uint16_t>(block + 1 == blocks)};
@@ -139,6 +151,11 @@ class Collapse {
       }
     }
     return WideChild::leaf(static_cast<uint32_t>(first_block));
+  }
+
+  void report(size_t block) const {
+    progress_.throw_if_stopped();
+    progress_.set_fraction(static_cast<double>(block) / wide_.block_infos.size());
   }
 
   void fill_lane(size_t block, size_t lane, uint32_t primitive) {
@@ -154,6 +171,7 @@ class Collapse {
 
   const BvhTree& tree_;
   const Mesh& mesh_;
+  Progress& progress_;
   WideTree wide_;
   std::vector<Range> ranges_;
   size_t node_count_ = 0;
@@ -162,8 +180,8 @@ class Collapse {
 
 }  // namespace
 
-WideTree build_wide_tree(const BvhTree& tree, const Mesh& mesh, int width) {
-  return Collapse(tree, mesh, width).run();
+WideTree build_wide_tree(const BvhTree& tree, const Mesh& mesh, int width, Progress& progress) {
+  return Collapse(tree, mesh, width, progress).run();
 }
 
 }  // namespace tracer

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "tracer/base/progress.h"
 #include "tracer/bvh/tree.h"
 #include "tracer/geometry/mesh.h"
 
@@ -56,7 +57,6 @@ struct WideTree {
   };
 
   int width = 0;
-  uint32_t node_count = 0;
   FloatRows nodes;  // nodes[0] is the root; unused lanes have empty boxes
   FloatRows blocks;
   std::vector<BlockInfo> block_infos;
@@ -68,7 +68,8 @@ struct WideTree {
 };
 
 /// Collapses `tree` to nodes of `width` children: the inner child of largest area is opened first.
-/// Subtrees of at most `width` triangles become one block. `tree` is not empty.
-WideTree build_wide_tree(const BvhTree& tree, const Mesh& mesh, int width);
+/// Subtrees of at most `width` triangles become one block. `tree` is not empty; `width` at most 16.
+/// Throws Cancelled.
+WideTree build_wide_tree(const BvhTree& tree, const Mesh& mesh, int width, Progress& progress);
 
 }  // namespace tracer

@@ -25,14 +25,15 @@ auto triangle_intersector(const Mesh& mesh, const StopFlag& stop) {
   };
 }
 
-void lay_out_wide(Accel& accel) {
+void lay_out_wide(Accel& accel, Progress& progress) {
   const int width = wide_kernel_width();
   if (width > 0 && accel.tree && !accel.tree->nodes.empty()) {
-    accel.wide = std::make_shared<const WideTree>(build_wide_tree(*accel.tree, *accel.mesh, width));
+    accel.wide = std::make_shared<const WideTree>(
+        build_wide_tree(*accel.tree, *accel.mesh, width, progress));
   }
 }
 
-void keep_binary(Accel&) {}
+void keep_binary(Accel&, Progress&) {}
 
 constexpr Layout layout_table[] = {
     {"wide", "Wide nodes, SIMD", "All children of a node and all triangles of a leaf at once",
@@ -53,16 +54,25 @@ const Layout* find_layout(std::string_view name) {
 }
 
 Accel make_accel(std::shared_ptr<const Mesh> mesh, std::optional<BvhTree> tree,
-                 const Layout& layout) {
+                 const Layout& layout, Progress& progress) {
   Accel accel{std::move(mesh), std::move(tree)};
-  layout.lay_out(accel);
+  layout.lay_out(accel, progress);
   return accel;
+}
+
+TreeMetrics measure(const Accel& accel) {
+  TreeMetrics metrics;
+  if (accel.tree) metrics = measure(*accel.tree);
+  if (accel.wide) metrics.bytes += accel.wide->bytes();
+  return metrics;
 }
 
 Hit RayCaster::closest_hit(const Ray& ray) {
   ++ray_count_;
-  if (accel_.wide && is_in_kernel_range(*accel_.wide, ray))
-    return closest_hit_wide(*accel_.wide, ray);
+  if (stop_.requested()) return {};
+  if (accel_.wide && is_in_kernel_range(*accel_.wide, ray)) {
+    return closest_hit_wide(*accel_.wide, ray, stop_);
+  }
   const auto intersect = triangle_intersector(*accel_.mesh, stop_);
   if (accel_.tree) return closest_hit_recursive(*accel_.tree, ray, intersect);
   Hit best;
@@ -76,7 +86,10 @@ Hit RayCaster::closest_hit(const Ray& ray) {
 
 bool RayCaster::occluded(const Ray& ray) {
   ++ray_count_;
-  if (accel_.wide && is_in_kernel_range(*accel_.wide, ray)) return occluded_wide(*accel_.wide, ray);
+  if (stop_.requested()) return false;
+  if (accel_.wide && is_in_kernel_range(*accel_.wide, ray)) {
+    return occluded_wide(*accel_.wide, ray, stop_);
+  }
   const auto intersect = triangle_intersector(*accel_.mesh, stop_);
   if (accel_.tree) return occluded_recursive(*accel_.tree, ray, intersect);
   for (uint32_t i = 0; i < accel_.mesh->triangle_count(); ++i) {

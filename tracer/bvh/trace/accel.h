@@ -9,6 +9,7 @@
 
 #include "tracer/base/progress.h"
 #include "tracer/bvh/layout/wide_tree.h"
+#include "tracer/bvh/metrics.h"
 #include "tracer/bvh/tree.h"
 #include "tracer/geometry/mesh.h"
 
@@ -27,7 +28,7 @@ struct Layout {
   std::string_view name;   // as on the command line
   std::string_view label;  // as in the panel
   std::string_view what;   // one sentence
-  void (*lay_out)(Accel& accel);
+  void (*lay_out)(Accel& accel, Progress& progress);
 };
 
 /// The first is the default.
@@ -35,9 +36,12 @@ std::span<const Layout> layouts();
 /// nullptr when there is none of that name.
 const Layout* find_layout(std::string_view name);
 
-/// `tree` is over primitive_boxes(*mesh); nullopt for brute force.
+/// `tree` is over primitive_boxes(*mesh); nullopt for brute force. Throws Cancelled.
 Accel make_accel(std::shared_ptr<const Mesh> mesh, std::optional<BvhTree> tree,
-                 const Layout& layout);
+                 const Layout& layout, Progress& progress);
+
+/// Of its tree, with the bytes of both forms; all 0 without a tree.
+TreeMetrics measure(const Accel& accel);
 
 /// Answers the rays of one tile or one test on one thread, and counts them. When `stop` is
 /// requested, answers may be misses: the caller looks at the flag before it keeps a result.
@@ -49,7 +53,6 @@ class RayCaster {
   bool occluded(const Ray& ray);
 
   uint64_t ray_count() const { return ray_count_; }
-  bool is_stopped() const { return stop_.requested(); }
 
  private:
   const Accel& accel_;

@@ -29,15 +29,15 @@ bool is_in_kernel_range(const WideTree& tree, const Ray& ray) {
   };
   const float direction = largest(ray.direction);
   return direction > 0x1p-40f && direction < 0x1p40f && largest(ray.origin) < 0x1p40f &&
-         tree.max_coordinate < 0x1p40f;
+         tree.max_coordinate > 0x1p-40f && tree.max_coordinate < 0x1p40f;
 }
 
-Hit closest_hit_wide(const WideTree& tree, const Ray& ray) {
-  return HWY_DYNAMIC_DISPATCH(ClosestHit)(tree, ray);
+Hit closest_hit_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop) {
+  return HWY_DYNAMIC_DISPATCH(ClosestHit)(tree, ray, stop);
 }
 
-bool occluded_wide(const WideTree& tree, const Ray& ray) {
-  return HWY_DYNAMIC_DISPATCH(Occluded)(tree, ray);
+bool occluded_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop) {
+  return HWY_DYNAMIC_DISPATCH(Occluded)(tree, ray, stop);
 }
 
 }  // namespace tracer

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "tracer/base/progress.h"
 #include "tracer/bvh/layout/wide_tree.h"
 #include "tracer/geometry/ray.h"
 
@@ -10,13 +11,15 @@ namespace tracer {
 /// 0 where there is no kernel for it and the recursive reference must answer.
 int wide_kernel_width();
 
-/// Whether no product of the filter over or underflows: coordinates and directions between 2^-40
-/// and 2^40. Other rays and scenes are the recursive reference's.
+/// Whether no product of the filter over or underflows: the scene's largest coordinate and the
+/// direction's largest component between 2^-40 and 2^40, the origin below 2^40. Other rays and
+/// scenes are the recursive reference's.
 bool is_in_kernel_range(const WideTree& tree, const Ray& ray);
 
 /// The closest hit, and whether there is any: the same bits as the recursive reference gives over
 /// the same triangles. `tree.width` equals wide_kernel_width().
-Hit closest_hit_wide(const WideTree& tree, const Ray& ray);
-bool occluded_wide(const WideTree& tree, const Ray& ray);
+/// Once `stop` is requested the answer may be a miss.
+Hit closest_hit_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop);
+bool occluded_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop);
 
 }  // namespace tracer

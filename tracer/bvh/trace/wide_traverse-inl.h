@@ -16,6 +16,7 @@
 
 #include <hwy/highway.h>
 
+#include "tracer/bvh/build_settings.h"
 #include "tracer/bvh/trace/wide_kernels.h"
 #include "tracer/geometry/triangle.h"
 
@@ -30,7 +31,9 @@ using Floats = hn::CappedTag<float, 16>;
 using Lanes = hn::Vec<Floats>;
 
 constexpr float u = 0x1p-24f;  // half an ulp of 1
-constexpr int stack_capacity = 64 * 16;
+constexpr int stack_capacity = max_tree_depth * 16;
+// Of one leaf, between two looks at the stop flag: some 10 microseconds.
+constexpr size_t blocks_a_look = 256;
 
 /// What of a ray the slab tests and the triangle filter need, computed once.
 struct RayConstants {
@@ -41,7 +44,7 @@ struct RayConstants {
   int kx, ky, kz;      // kz: the direction's largest component
   float shear_x, shear_y;
   float origin[3];
-  float largest_component;  // |direction[kz]|, rounded up
+  float largest_component;  // |direction[kz]|
   float slack;              // how far outside its box the padded slabs let a ray pass, at most
   float t_min;              // rounded down
 };
@@ -197,7 +200,7 @@ HWY_INLINE StackEntry* push_children(const float* node, uint32_t bits, const flo
 }
 
 template <Query query>
-HWY_INLINE Hit traverse(const WideTree& tree, const Ray& ray) {
+HWY_INLINE Hit traverse(const WideTree& tree, const Ray& ray, const StopFlag& stop) {
   const Floats d;
   const size_t width = hn::Lanes(d);
   const RayConstants constants = prepare(tree, ray);
@@ -216,7 +219,9 @@ HWY_INLINE Hit traverse(const WideTree& tree, const Ray& ray) {
       top = push_children(node, bits, entry, query == Query::closest_hit, top);
       continue;
     }
-    for (size_t block = popped.child.index();; ++block) {
+    const size_t first_block = popped.child.index();
+    for (size_t block = first_block;; ++block) {
+      if ((block - first_block) % blocks_a_look == blocks_a_look - 1 && stop.requested()) return {};
       const WideTree::BlockInfo& info = tree.block_infos[block];
       const float* rows = tree.blocks.row(block * WideTree::rows_a_block);
       uint32_t bits = hit_triangles(rows, info, constants, popped.entry, t_max);
@@ -242,6 +247,7 @@ HWY_INLINE Hit traverse(const WideTree& tree, const Ray& ray) {
   return best;
 }
 
+// NOLINTBEGIN(misc-definitions-in-headers): each instruction set has a namespace of its own.
 int KernelWidth() {
 #if HWY_TARGET == HWY_SCALAR
   return 0;
@@ -250,13 +256,14 @@ int KernelWidth() {
 #endif
 }
 
-Hit ClosestHit(const WideTree& tree, const Ray& ray) {
-  return traverse<Query::closest_hit>(tree, ray);
+Hit ClosestHit(const WideTree& tree, const Ray& ray, const StopFlag& stop) {
+  return traverse<Query::closest_hit>(tree, ray, stop);
 }
 
-bool Occluded(const WideTree& tree, const Ray& ray) {
-  return traverse<Query::occluded>(tree, ray).is_hit();
+bool Occluded(const WideTree& tree, const Ray& ray, const StopFlag& stop) {
+  return traverse<Query::occluded>(tree, ray, stop).is_hit();
 }
+// NOLINTEND(misc-definitions-in-headers)
 
 }  // namespace HWY_NAMESPACE
 }  // namespace tracer
