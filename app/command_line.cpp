@@ -2,7 +2,9 @@
 #include "app/command_line.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 
@@ -60,11 +62,20 @@ int fail(std::string text, int code) {
   return code;
 }
 
+// What was printed must have arrived: a full disk shows only here.
+int finish(int code) {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  const char* why = errno != 0 ? std::strerror(errno) : "writing failed";
+  return fail(std::string("boxwood: standard output cannot be written: ") + why,
+              exit_code::failure);
+}
+
 }  // namespace
 
 int run_command_line(const std::vector<std::string>& arguments) {
   try {
-    return dispatch(arguments);
+    return finish(dispatch(arguments));
   } catch (const OptionError& error) {
     return fail(error.what(), exit_code::bad_input);
   } catch (const tracer::LoadError& error) {

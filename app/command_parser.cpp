@@ -34,6 +34,14 @@ std::string with_leading_zero(const std::string& argument) {
   return argument.starts_with("-.") ? "-0" + argument.substr(1) : argument;
 }
 
+// The option that was given more often than it takes values; nullptr where there is none.
+const CLI::Option* repeated_option(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (static_cast<int>(option->count()) > option->get_items_expected_max()) return option;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 CommandParser::CommandParser(const std::string& name, const std::string& description,
@@ -56,8 +64,10 @@ Parsed CommandParser::parse(const std::vector<std::string>& arguments) {
     fmt::print("{}", app_.help());
     return Parsed::help_was_printed;
   } catch (const CLI::ParseError& error) {
-    throw OptionError(
-        fmt::format("boxwood {}: {}; see boxwood {} --help", name_, error.what(), name_));
+    const CLI::Option* repeated = repeated_option(app_);
+    const std::string what =
+        repeated ? repeated->get_name() + ": given more than once" : std::string(error.what());
+    throw OptionError(fmt::format("boxwood {}: {}; see boxwood {} --help", name_, what, name_));
   }
   return Parsed::run;
 }

@@ -48,29 +48,28 @@ Json describe(const std::filesystem::path& path, const tracer::ImportedScene& im
   for (const tracer::Message& message : imported.warnings.messages()) {
     messages.push_back(message.text());
   }
-  return {{"file", path.filename().string()},
-          {"bytes", imported.file_bytes},
-          {"triangles", mesh.triangle_count()},
-          {"vertices", mesh.positions.size()},
-          {"faces", imported.face_count},
-          {"objects", imported.object_count},
-          {"groups", imported.group_count},
-          {"textures", imported.scene.textures->size()},
-          {"lights", imported.scene.lights->triangles.size()},
-          {"normals", imported.has_normals},
-          {"texture_coordinates", !mesh.texcoords.empty()},
-          {"colors", !mesh.colors.empty()},
-          {"bounds",
-           {{"min", to_json(mesh.origin + tracer::Vec3d(mesh.bounds.min))},
-            {"max", to_json(mesh.origin + tracer::Vec3d(mesh.bounds.max))}}},
-          {"origin", to_json(mesh.origin)},
-          {"materials", describe_materials(imported.scene)},
-          {"dropped_faces", imported.dropped_faces},
-          {"warnings", {{"count", imported.warnings.count()}, {"messages", messages}}}};
+  return {
+      {"file", path.filename().string()},
+      {"bytes", imported.file_bytes},
+      {"triangles", mesh.triangle_count()},
+      {"vertices", mesh.positions.size()},
+      {"faces", imported.face_count},
+      {"objects", imported.object_count},
+      {"groups", imported.group_count},
+      {"textures", imported.scene.textures->size()},
+      {"lights", imported.scene.lights->triangles.size()},
+      {"normals", imported.has_normals},
+      {"texture_coordinates", !mesh.texcoords.empty()},
+      {"colors", !mesh.colors.empty()},
+      {"bounds", {{"min", to_json(imported.bounds.min)}, {"max", to_json(imported.bounds.max)}}},
+      {"origin", to_json(mesh.origin)},
+      {"materials", describe_materials(imported.scene)},
+      {"dropped_faces", imported.dropped_faces},
+      {"warnings", {{"count", imported.warnings.count()}, {"messages", messages}}}};
 }
 
 std::string numbers(const Json& vector) {
-  return fmt::format("{:.7g}  {:.7g}  {:.7g}", vector[0].get<double>(), vector[1].get<double>(),
+  return fmt::format("{:.10g}  {:.10g}  {:.10g}", vector[0].get<double>(), vector[1].get<double>(),
                      vector[2].get<double>());
 }
 

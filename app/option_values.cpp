@@ -6,6 +6,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "tracer/scene/view_file.h"
+
 namespace app {
 namespace {
 
@@ -68,7 +70,7 @@ tracer::Vec3d parse_vec3(const std::string& text) {
 
 tracer::Vec3d parse_sky(const std::string& text) {
   const tracer::Vec3d sky = parse_vec3(text);
-  if (sky.x < 0 || sky.y < 0 || sky.z < 0) fail(text, "a radiance: no part may be below 0");
+  if (!tracer::is_radiance(sky)) fail(text, "a radiance: three numbers from 0 to 1e30");
   return sky;
 }
 

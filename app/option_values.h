@@ -28,7 +28,7 @@ inline constexpr int max_threads = 1024;
 int parse_whole_number(const std::string& text, int min, int max);
 double parse_number(const std::string& text, double min, double max);
 tracer::Vec3d parse_vec3(const std::string& text);     // "x,y,z"
-tracer::Vec3d parse_sky(const std::string& text);      // "r,g,b", none below 0
+tracer::Vec3d parse_sky(const std::string& text);      // "r,g,b", each 0 to 1e30
 tracer::Vec2i parse_size_px(const std::string& text);  // "1280x720"
 tracer::Vec2i parse_pixel(const std::string& text);    // "x,y", none below 0
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/render_command.h"
 
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -18,6 +20,7 @@
 #include "app/render_view.h"
 #include "app/stopwatch.h"
 #include "tracer/base/parallel.h"
+#include "tracer/base/write_file.h"
 #include "tracer/render/write_image.h"
 
 namespace app {
@@ -30,18 +33,30 @@ void check_pixel(tracer::Vec2i pixel, tracer::Vec2i size_px) {
                                 size_px.y - 1));
 }
 
-// Hours of work should not end at a misspelt folder.
-void check_writable(const std::filesystem::path& path) {
+// They are written in place, so that they can go to /dev/stdout and the like.
+void check_stats_file(const std::filesystem::path& path) {
   std::error_code ignored;
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw tracer::LoadError({path.string(), 0, "this is a folder; say a file's name"});
+  const bool is_new = !std::filesystem::exists(path, ignored);
+  if (is_new || std::filesystem::is_directory(path, ignored)) return tracer::check_writable(path);
+  if (access(path.c_str(), W_OK) != 0) {
+    throw tracer::LoadError(
+        {path.string(), 0, std::string("cannot write: ") + std::strerror(errno)});
   }
-  if (!std::filesystem::is_directory(folder, ignored)) {
-    throw tracer::LoadError({path.string(), 0, "there is no folder " + folder.string()});
-  }
-  if (access(folder.c_str(), W_OK) != 0 && access(path.c_str(), W_OK) != 0) {
-    throw tracer::LoadError({path.string(), 0, "cannot be written; choose another folder"});
+}
+
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code ignored;
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(a), ignored) ==
+         std::filesystem::weakly_canonical(std::filesystem::absolute(b), ignored);
+}
+
+// Hours of work should not end at a misspelt folder.
+void check_outputs(const RenderOptions& options) {
+  if (options.output) tracer::check_writable(*options.output);
+  if (!options.stats_file) return;
+  check_stats_file(*options.stats_file);
+  if (options.output && is_same_file(*options.output, *options.stats_file)) {
+    throw OptionError("-o and --stats name the same file; give each its own");
   }
 }
 
@@ -146,8 +161,7 @@ class RenderJob {
 }  // namespace
 
 int render_command(const RenderOptions& options) {
-  if (options.output) check_writable(*options.output);
-  if (options.stats_file) check_writable(*options.stats_file);
+  check_outputs(options);
   RenderOptions complete = options;
   if (complete.thread_count == 0) complete.thread_count = tracer::default_thread_count();
   return tracer::with_thread_count(complete.thread_count,

@@ -17,10 +17,19 @@ std::optional<tracer::View> find_view(const RenderOptions& options) {
   return tracer::load_view(beside);
 }
 
-void check(const ResolvedView& view) {
+// The camera's place is a float from the mesh's centre.
+bool is_in_reach(const tracer::Vec3d& point, const tracer::Vec3d& origin) {
+  constexpr double reach = 1e30;
+  return tracer::max_abs(point - origin) <= reach;
+}
+
+void check(const ResolvedView& view, const tracer::Vec3d& origin) {
   if (int64_t{view.size_px.x} * view.size_px.y > max_picture_px) {
     throw OptionError(fmt::format("--size: {}x{} is too large; {} million pixels at most",
                                   view.size_px.x, view.size_px.y, max_picture_px >> 20));
+  }
+  if (!is_in_reach(view.camera.eye, origin) || !is_in_reach(view.camera.target, origin)) {
+    throw OptionError("--eye or --target lies too far away; 1e30 from the model at most");
   }
   if (view.camera.eye == view.camera.target) {
     throw OptionError("--eye and --target are the same point; move one of them");
@@ -44,7 +53,7 @@ ResolvedView resolve_view(const RenderOptions& options, const tracer::Mesh& mesh
   view.camera.up = options.up.value_or(view.camera.up);
   view.camera.fov_degrees = options.fov_degrees.value_or(view.camera.fov_degrees);
   view.sky = options.sky.value_or(saved && saved->sky ? *saved->sky : tracer::World{}.sky);
-  check(view);
+  check(view, mesh.origin);
   return view;
 }
 

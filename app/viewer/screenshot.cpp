@@ -34,7 +34,7 @@ std::filesystem::path next_screenshot_path(const std::filesystem::path& folder,
                                            const std::filesystem::path& model) {
   const std::string stem = model.empty() ? "boxwood" : model.stem().string();
   for (int number = 1;; ++number) {
-    const auto path = folder / fmt::format("{}-{:03}.png", stem, number);
+    auto path = folder / fmt::format("{}-{:03}.png", stem, number);
     std::error_code error;
     if (!std::filesystem::exists(path, error)) return path;
   }

@@ -121,6 +121,8 @@ TEST_F(CommandLine, bad_values_are_refused_by_the_name_of_the_option) {
                                                                        {"--fov", "180"},
                                                                        {"--sky", "-1,0,0"},
                                                                        {"--sky", "1"},
+                                                                       {"--sky", "1e39,0,0"},
+                                                                       {"--eye", "1e39,0,0"},
                                                                        {"--pixel", "1280,0"},
                                                                        {"--pixel", "0,720"},
                                                                        {"--pixel", "-1,0"},
@@ -132,6 +134,28 @@ TEST_F(CommandLine, options_that_exclude_or_need_each_other_say_so) {
   expect_render_refused({"--spp", "4", "--time", "1"}, "--time");
   expect_render_refused({"--sample", "4"}, "--pixel");
   expect_render_refused({"--eye", "1,2,3", "--target", "1,2,3"}, "same point");
+}
+
+TEST_F(CommandLine, a_repeated_option_is_told_in_words) {
+  expect_render_refused({"--spp", "4", "--spp", "5"}, "--spp: given more than once");
+}
+
+TEST_F(CommandLine, picture_and_stats_need_files_of_their_own) {
+  expect_render_refused({"--stats", picture_}, "same file");
+  expect_render_refused({"--stats", folder_ / "./cube.png"}, "same file");
+}
+
+TEST_F(CommandLine, a_picture_that_would_replace_a_device_is_refused) {
+  const std::string link = folder_ / "null.png";
+  std::filesystem::create_symlink("/dev/null", link);
+  expect_refused({"render", model_, "-o", link, "--spp", "100000000"}, "not a regular file");
+}
+
+TEST_F(CommandLine, output_that_cannot_be_written_is_a_failure) {
+  const std::string command = std::string(BOXWOOD_PROGRAM) + " --version >/dev/full";
+  const ProgramResult result = ChildProgram("/bin/sh", {"-c", command}).wait();
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, "boxwood: standard output cannot be written: No space left on device\n");
 }
 
 TEST_F(CommandLine, the_choices_are_listed_where_a_name_is_unknown) {

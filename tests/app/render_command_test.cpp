@@ -246,6 +246,22 @@ TEST_F(RenderCommand, a_described_sample_is_the_one_that_is_rendered) {
   }
 }
 
+TEST_F(RenderCommand, stats_can_go_to_standard_output) {
+  const ProgramResult result =
+      run_boxwood(with_defaults(folder_ / "cube.png", {"--spp", "1", "--stats", "/dev/stdout"}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(Json::parse(result.out)["triangles"], 12);
+}
+
+TEST_F(RenderCommand, positions_of_a_sample_are_those_of_the_file) {
+  write_file(model_, "v 1000 0 7\nv 1010 0 7\nv 1000 10 7\nf 1 2 3\n");
+  const ProgramResult result =
+      run_boxwood({"render", model_, "--size", "1x1", "--eye", "1002,3,20", "--target", "1002,3,7",
+                   "--fov", "0.001", "--pixel", "0,0"});
+  EXPECT_NE(result.out.find("origin (1002 3 20)"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("position (1001.9999"), std::string::npos) << result.out;
+}
+
 TEST_F(RenderCommand, samples_of_a_pixel_differ) {
   const auto describe = [&](const char* sample) {
     return run_boxwood({"render", model_, "--size", "16x12", "--pixel", "8,6", "--sample", sample})

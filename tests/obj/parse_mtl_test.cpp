@@ -63,15 +63,15 @@ TEST(ParseMtl, malformed_values_are_said_and_leave_the_default) {
     const char* line;
     const char* message;
   } faults[] = {
-      {"Kd 1 2", "x.mtl:2: kd: a number is missing"},
-      {"Kd", "x.mtl:2: kd: a number is missing"},
-      {"Kd red", "x.mtl:2: kd: 'red' is not a finite number"},
-      {"Kd spectral a.rfl 1", "x.mtl:2: kd: 'spectral' is not a finite number"},
-      {"Ke nan 0 0", "x.mtl:2: ke: 'nan' is not a finite number"},
-      {"Ke 0 1e400 0", "x.mtl:2: ke: '1e400' is not a finite number"},
-      {"Ns 1e39", "x.mtl:2: ns: '1e39' is not a finite number"},
+      {"Kd 1 2", "x.mtl:2: Kd: a number is missing"},
+      {"Kd", "x.mtl:2: Kd: a number is missing"},
+      {"Kd red", "x.mtl:2: Kd: 'red' is not a finite number"},
+      {"Kd spectral a.rfl 1", "x.mtl:2: Kd: 'spectral' is not a finite number"},
+      {"Ke nan 0 0", "x.mtl:2: Ke: 'nan' is not a finite number"},
+      {"Ke 0 1e400 0", "x.mtl:2: Ke: '1e400' is not a finite number"},
+      {"Ns 1e39", "x.mtl:2: Ns: '1e39' is not a finite number"},
       {"illum x", "x.mtl:2: illum: 'x' is not a finite number"},
-      {"map_Kd", "x.mtl:2: map_kd: the path is missing"},
+      {"map_Kd", "x.mtl:2: map_Kd: the path is missing"},
   };
   for (const auto& fault : faults) {
     const MtlFile file = parse_mtl(std::string("newmtl a\n") + fault.line + "\nNi 2\n", "x.mtl");
@@ -86,7 +86,7 @@ TEST(ParseMtl, malformed_values_are_said_and_leave_the_default) {
 TEST(ParseMtl, values_before_the_first_material_are_said) {
   const MtlFile file = parse_mtl("Kd 1 1 1\nnewmtl a\n", "x.mtl");
   ASSERT_EQ(file.warnings.count(), 1);
-  EXPECT_EQ(file.warnings.messages()[0].text(), "x.mtl:1: kd stands before the first newmtl");
+  EXPECT_EQ(file.warnings.messages()[0].text(), "x.mtl:1: Kd stands before the first newmtl");
 }
 
 TEST(ParseMtl, other_keywords_are_passed_over) {

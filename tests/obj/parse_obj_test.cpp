@@ -183,8 +183,9 @@ TEST(ParseObj, materials_libraries_objects_and_groups_are_kept) {
                              "f 1 2 3\nusemtl red  paint\nf 1 2 3\nusemtl Material #2\nf 1 2 3\n"
                              "usemtl red paint # again\nf 1 2 3\n");
   EXPECT_EQ(file.material_libraries,
-            (std::vector<std::string>{"a.mtl", "my file.mtl", "odd name"}));
-  EXPECT_EQ(file.material_names, (std::vector<std::string>{"", "red paint", "Material #2"}));
+            (std::vector<ObjName>{{"a.mtl", 5}, {"my file.mtl", 5}, {"odd name", 6}}));
+  EXPECT_EQ(file.material_names,
+            (std::vector<ObjName>{{"", 0}, {"red paint", 11}, {"Material #2", 13}}));
   EXPECT_EQ(file.object_count, 1u);
   EXPECT_EQ(file.group_count, 2u);
   ASSERT_EQ(file.faces.size(), 4u);

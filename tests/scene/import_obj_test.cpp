@@ -87,12 +87,12 @@ TEST(ImportObj, a_missing_library_is_a_warning_and_its_materials_are_grey) {
       "x.obj", square + "mtllib no.mtl\nusemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\n");
   const ImportedScene imported = import(path);
   EXPECT_EQ(imported.warnings.count(), 2);
-  EXPECT_EQ(warning(imported, 0), path.string() +
-                                      ": material library: " + (folder.path() / "no.mtl").string() +
-                                      ": No such file or directory");
+  EXPECT_EQ(warning(imported, 0),
+            path.string() + ":9: material library: " + (folder.path() / "no.mtl").string() +
+                ": No such file or directory");
   EXPECT_EQ(warning(imported, 1),
             path.string() +
-                ": material 'a' and 2 more: in no material library, shown in the default grey");
+                ":10: material 'a' and 2 more: in no material library, shown in the default grey");
   EXPECT_EQ(imported.scene.materials->at(3).diffuse, Vec3f(0.8f));
 }
 
@@ -129,6 +129,54 @@ TEST(ImportObj, paths_that_leave_the_models_folder_are_refused) {
       import(folder.write("model/x.obj", "mtllib a.mtl\n" + square + "usemtl m\n" + textured_face));
   EXPECT_NE(warning(imported, 0).find("map_Kd '../white.ppm' is refused"), std::string::npos);
   EXPECT_EQ(imported.scene.materials->at(1).diffuse_texture, no_texture);
+}
+
+TEST(ImportObj, a_file_of_the_name_stands_in_for_a_path_of_another_machine) {
+  const TemporaryFolder folder;
+  folder.write("lib/white.ppm", white_ppm);
+  for (const std::string written :
+       {"/home/somebody/white.ppm", "..\\..\\white.ppm", "C:\\textures\\white.ppm", "C:white.ppm",
+        "textures/white.ppm", "white.ppm"}) {
+    folder.write("lib/a.mtl", "newmtl m\nmap_Kd " + written + "\n");
+    const ImportedScene imported =
+        import(folder.write("x.obj", "mtllib lib/a.mtl\n" + square + "usemtl m\n" + textured_face));
+    EXPECT_EQ(imported.warnings.count(), 0) << warning(imported, 0);
+    EXPECT_EQ(imported.scene.textures->size(), 1u) << written;
+  }
+  folder.write("b.mtl", "newmtl m\nKd 1 0 0\n");
+  const ImportedScene imported =
+      import(folder.write("x.obj", "mtllib D:\\b.mtl\n" + square + "usemtl m\nf 1 2 3\n"));
+  EXPECT_EQ(imported.warnings.count(), 0) << warning(imported, 0);
+  EXPECT_EQ(imported.scene.materials->at(1).diffuse, Vec3f(1, 0, 0));
+}
+
+TEST(ImportObj, warnings_name_their_lines_and_stand_in_their_order) {
+  const TemporaryFolder folder;
+  folder.write("a.mtl", "newmtl m\nkd x\n\nmap_kd no.png\n");
+  const std::string path =
+      folder
+          .write("x.obj", "mtllib a.mtl no.mtl\n" + square + "usemtl m\n" + textured_face +
+                              "f 1 1 2\nusemtl n\nf 1 2 9\nf 1 2 2\nf 1 2\n")
+          .string();
+  const ImportedScene imported = import(path);
+  const std::string library = (folder.path() / "a.mtl").string();
+  const std::vector<std::string> starts = {
+      path + ":1: material library: ",    path + ":12: the face has no area",
+      path + ":13: material 'n'",         path + ":14: vertex 9 does not exist",
+      path + ":15: the face has no area", path + ":16: a face needs",
+      library + ":2: Kd: 'x' is not",     library + ":4: map_Kd: "};
+  ASSERT_EQ(imported.warnings.count(), static_cast<int64_t>(starts.size()));
+  for (size_t i = 0; i < starts.size(); ++i) {
+    EXPECT_TRUE(warning(imported, i).starts_with(starts[i])) << warning(imported, i);
+  }
+}
+
+TEST(ImportObj, bounds_are_the_numbers_of_the_file) {
+  const TemporaryFolder folder;
+  const ImportedScene imported = import(folder.write(
+      "x.obj", "v 0.1 4194304.3 -1e-7\nv 2 4194305.7 3\nv 1.3 4194305 9.9\nf 1 2 3\n"));
+  EXPECT_EQ(imported.bounds.min, Vec3d(0.1, 4194304.3, -1e-7));
+  EXPECT_EQ(imported.bounds.max, Vec3d(2, 4194305.7, 9.9));
 }
 
 TEST(ImportObj, a_broken_texture_is_a_warning_and_the_others_stay_right) {

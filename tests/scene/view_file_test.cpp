@@ -78,7 +78,8 @@ TEST_F(ViewFile, faults_name_the_key_and_what_it_should_be) {
               R"(: "size" should be two whole numbers from 1 to 65535, [width,height])");
   }
   EXPECT_EQ(error_of(start + R"("sky":[0,-1,0]})"),
-            R"(: "sky" should be three numbers of 0 or more, [r,g,b])");
+            R"(: "sky" should be three numbers from 0 to 1e30, [r,g,b])");
+  EXPECT_NE(error_of(start + R"("sky":[1e39,0,0]})"), "no error");
   EXPECT_EQ(error_of(start + R"("fow":40})"),
             R"(: "fow" is unknown; keys are eye, target, up, fov, size, sky)");
   EXPECT_EQ(error_of("[1,2]"), R"(: a view is an object, {"eye":[x,y,z],"target":[x,y,z],...})");
@@ -86,8 +87,7 @@ TEST_F(ViewFile, faults_name_the_key_and_what_it_should_be) {
 
 TEST_F(ViewFile, text_that_is_not_json_is_told_with_its_line) {
   EXPECT_EQ(error_of("{\n\"eye\":[1,2,3],\n\"target\" [0]\n}"), ":3: this is not JSON");
-  EXPECT_EQ(error_of("{\"eye\":[1e999,0,0],\"target\":[0,0,0]}").substr(0, 1), ":");
-  EXPECT_NE(error_of("{\"eye\":[1e999,0,0],\"target\":[0,0,0]}"), "no error");
+  EXPECT_EQ(error_of("{\"eye\":[1e999,0,0],\"target\":[0,0,0]}"), ": a number is too large");
   EXPECT_NE(error_of(""), "no error");
   EXPECT_NE(error_of("\xff\xfe"), "no error");
   EXPECT_THROW(load_view("/nowhere/at/all.json"), LoadError);

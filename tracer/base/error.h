@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -42,6 +44,16 @@ class Warnings {
       if (messages_.size() < kept_messages) messages_.push_back(message);
     }
     count_ += other.count_;
+  }
+
+  /// Both, each in the order of lines, as one list in that order.
+  friend Warnings merged_by_line(const Warnings& a, const Warnings& b) {
+    Warnings merged;
+    std::ranges::merge(a.messages_, b.messages_, std::back_inserter(merged.messages_), {},
+                       &Message::line, &Message::line);
+    if (merged.messages_.size() > kept_messages) merged.messages_.resize(kept_messages);
+    merged.count_ = a.count_ + b.count_;
+    return merged;
   }
 
   int64_t count() const { return count_; }

@@ -10,4 +10,7 @@ namespace tracer {
 /// Throws LoadError, in words for the user.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
+/// Throws what write_file would, as far as that shows before there are bytes to write.
+void check_writable(const std::filesystem::path& path);
+
 }  // namespace tracer

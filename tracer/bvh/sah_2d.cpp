@@ -34,8 +34,7 @@ SahNode2d::SahNode2d(const Rectangle& box, std::span<const XInterval> triangles,
   std::ranges::sort(ends_);
   std::ranges::sort(flats_);
   std::ranges::set_union(starts_, ends_, std::back_inserter(candidates_));
-  const auto repeated = std::ranges::unique(candidates_);
-  candidates_.erase(repeated.begin(), repeated.end());
+  candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
 }
 
 size_t SahNode2d::left_count(double d) const {

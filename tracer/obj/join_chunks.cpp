@@ -123,43 +123,38 @@ class FaceChecker {
 /// Materials in the order in which the file first uses them.
 class MaterialTable {
  public:
-  explicit MaterialTable(std::vector<std::string>& names) : names_(names) { find_or_add(""); }
+  explicit MaterialTable(std::vector<ObjName>& names) : names_(names) { find_or_add({}, 0); }
 
   /// The file's indices of a chunk's materials.
-  std::vector<uint32_t> add(const ObjChunk& chunk) {
+  std::vector<uint32_t> add(const ObjChunk& chunk, uint32_t lines_before) {
     std::vector<uint32_t> indices{current_};
     for (size_t i = 1; i < chunk.material_names.size(); ++i) {
-      indices.push_back(find_or_add(chunk.material_names[i]));
+      indices.push_back(find_or_add(chunk.material_names[i], lines_before));
     }
     current_ = indices[chunk.last_material];
     return indices;
   }
 
  private:
-  uint32_t find_or_add(const std::string& name) {
-    const auto [entry, is_new] = indices_.try_emplace(name, static_cast<uint32_t>(names_.size()));
-    if (is_new) names_.push_back(name);
+  uint32_t find_or_add(const ObjName& name, uint32_t lines_before) {
+    const auto [entry, is_new] =
+        indices_.try_emplace(name.text, static_cast<uint32_t>(names_.size()));
+    if (is_new) names_.push_back({name.text, name.line + lines_before});
     return entry->second;
   }
 
-  std::vector<std::string>& names_;
+  std::vector<ObjName>& names_;
   std::unordered_map<std::string, uint32_t> indices_;
   uint32_t current_ = 0;
 };
 
-/// Merges two lists in the order of their lines and appends them, with path and line of the file.
-void append_by_line(Warnings& to, const Warnings& a, const Warnings& b, const std::string& path,
-                    uint32_t lines_before) {
-  auto next_a = a.messages().begin();
-  auto next_b = b.messages().begin();
-  while (next_a != a.messages().end() || next_b != b.messages().end()) {
-    const bool takes_a = next_b == b.messages().end() ||
-                         (next_a != a.messages().end() && next_a->line <= next_b->line);
-    const Message& message = takes_a ? *next_a++ : *next_b++;
+/// With path and line of the file.
+void append_moved(Warnings& to, const Warnings& from, const std::string& path,
+                  uint32_t lines_before) {
+  for (const Message& message : from.messages()) {
     to.add({path, message.line + lines_before, message.what});
   }
-  const size_t in_words = a.messages().size() + b.messages().size();
-  to.add_uncounted(a.count() + b.count() - static_cast<int64_t>(in_words));
+  to.add_uncounted(from.count() - static_cast<int64_t>(from.messages().size()));
 }
 
 template <class T>
@@ -199,17 +194,17 @@ class Joiner {
       ObjChunk& chunk = chunks_[i];
       places_[i].before = total_;
       places_[i].lines_before = line_count;
-      places_[i].materials = materials.add(chunk);
+      places_[i].materials = materials.add(chunk, line_count);
       total_.positions += chunk.positions.size();
       total_.texcoords += chunk.texcoords.size();
       total_.normals += chunk.normals.size();
-      line_count += chunk.line_count;
       has_colors = has_colors || !chunk.colors.empty();
       file_.object_count += chunk.object_count;
       file_.group_count += chunk.group_count;
-      for (std::string& name : chunk.material_libraries) {
-        file_.material_libraries.push_back(std::move(name));
+      for (ObjName& name : chunk.material_libraries) {
+        file_.material_libraries.push_back({std::move(name.text), name.line + line_count});
       }
+      line_count += chunk.line_count;
     }
     file_.positions.resize(total_.positions);
     file_.texcoords.resize(total_.texcoords);
@@ -224,8 +219,8 @@ class Joiner {
     uint64_t face_count = 0;
     for (size_t i = 0; i < chunks_.size(); ++i) {
       ObjChunk& chunk = chunks_[i];
-      append_by_line(file_.warnings, chunk.warnings, checked[i].warnings, path_,
-                     places_[i].lines_before);
+      append_moved(file_.warnings, merged_by_line(chunk.warnings, checked[i].warnings), path_,
+                   places_[i].lines_before);
       file_.dropped_faces += chunk.dropped_faces;
       if (corner_count + checked[i].corner_count >= no_obj_index) {
         drop_all_faces(chunk, checked[i].face_count);

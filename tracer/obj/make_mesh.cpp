@@ -17,16 +17,6 @@ constexpr double largest_float = std::numeric_limits<float>::max();
 constexpr size_t faces_a_block = 4096;
 constexpr size_t positions_a_block = 16384;
 
-struct BoundsD {
-  Vec3d min{std::numeric_limits<double>::infinity()};
-  Vec3d max{-std::numeric_limits<double>::infinity()};
-
-  void extend(const Vec3d& low, const Vec3d& high) {
-    min = glm::min(min, low);
-    max = glm::max(max, high);
-  }
-};
-
 bool fits_float(const Vec3d& position) {
   return is_finite(position) && max_abs(position) <= largest_float;
 }
@@ -53,17 +43,17 @@ std::span<const ObjFace> block_of(const ObjFile& file, size_t block) {
 
 /// The centre of the bounds of all usable faces; the origin where there is none.
 Vec3d find_center(const ObjFile& file) {
-  std::vector<BoundsD> blocks(block_count_of(file));
+  std::vector<WorldBounds> blocks(block_count_of(file));
   parallel_for_each_index(0, blocks.size(), [&](size_t block) {
     for (const ObjFace& face : block_of(file, block)) {
       if (!has_usable_corners(file, face)) continue;
       for (const ObjCorner& corner : corners_of(file, face)) {
-        blocks[block].extend(file.positions[corner.position], file.positions[corner.position]);
+        blocks[block].extend(file.positions[corner.position]);
       }
     }
   });
-  BoundsD bounds;
-  for (const BoundsD& block : blocks) bounds.extend(block.min, block.max);
+  WorldBounds bounds;
+  for (const WorldBounds& block : blocks) bounds.extend(block);
   return bounds.min.x <= bounds.max.x ? 0.5 * bounds.min + 0.5 * bounds.max : Vec3d(0.0);
 }
 
@@ -116,7 +106,10 @@ class BlockTriangulator {
     for (const Vec3u& triangle : triangles_) {
       block_.corners.push_back(triangle + Vec3u(face.first_corner));
       block_.materials.push_back(face.material);
-      for (int i = 0; i < 3; ++i) block_.bounds.extend(Vec3f(points_[triangle[i]]));
+      for (int i = 0; i < 3; ++i) {
+        const ObjCorner& corner = file_.corners[face.first_corner + triangle[i]];
+        block_.bounds.extend(file_.positions[corner.position]);
+      }
     }
     return true;
   }
@@ -175,10 +168,13 @@ ObjMesh make_mesh(const ObjFile& file, const std::string& path, Progress& progre
   for (const TriangleBlock& block : blocks) {
     result.dropped_faces += block.dropped_faces;
     result.warnings.append(block.warnings);
-    result.mesh.bounds.extend(block.bounds);
+    result.bounds.extend(block.bounds);
   }
   fill_triangles(file, blocks, result.mesh);
   if (result.mesh.triangles.empty()) fail(file, result.warnings, path);
+  // Rounding keeps order: these are the bounds of the rounded positions.
+  result.mesh.bounds = {Vec3f(result.bounds.min - result.mesh.origin),
+                        Vec3f(result.bounds.max - result.mesh.origin)};
   return result;
 }
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "tracer/geometry/mesh.h"
+#include "tracer/geometry/world_bounds.h"
 #include "tracer/obj/obj_file.h"
 
 namespace tracer {
 
 struct ObjMesh {
+  WorldBounds bounds;         // of the triangles
   Mesh mesh;                  // materials index ObjFile::material_names
   int64_t dropped_faces = 0;  // with coordinates that are not finite, or without area
   Warnings warnings;

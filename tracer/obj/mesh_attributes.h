@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tracer/geometry/mesh.h"
+#include "tracer/geometry/world_bounds.h"
 #include "tracer/obj/obj_file.h"
 
 namespace tracer {
@@ -12,7 +13,7 @@ namespace tracer {
 struct TriangleBlock {
   std::vector<Vec3u> corners;       // indices into ObjFile::corners
   std::vector<uint32_t> materials;  // one a triangle
-  Box bounds;
+  WorldBounds bounds;
   int64_t dropped_faces = 0;
   Warnings warnings;
 };

@@ -65,7 +65,7 @@ class ChunkParser {
       use_material(cursor_.name());
     } else if (keyword == "mtllib") {
       for (std::string& name : split_libraries(cursor_.name())) {
-        chunk_.material_libraries.push_back(std::move(name));
+        chunk_.material_libraries.push_back({std::move(name), cursor_.statement_line()});
       }
     } else if (keyword == "o") {
       ++chunk_.object_count;
@@ -226,7 +226,7 @@ class ChunkParser {
   void use_material(const std::string& name) {
     const auto next = static_cast<uint32_t>(chunk_.material_names.size());
     const auto [entry, is_new] = materials_.try_emplace(name, next);
-    if (is_new) chunk_.material_names.push_back(name);
+    if (is_new) chunk_.material_names.push_back({name, cursor_.statement_line()});
     material_ = chunk_.last_material = entry->second;
   }
 

@@ -8,6 +8,7 @@
 
 #include "tracer/base/error.h"
 #include "tracer/base/vectors.h"
+#include "tracer/obj/obj_file.h"
 
 namespace tracer {
 
@@ -41,9 +42,9 @@ struct ObjChunk {
   std::vector<Vec3f> normals;
   std::vector<WrittenCorner> corners;
   std::vector<WrittenFace> faces;
-  std::vector<std::string> material_names;  // [0] stands for the material in force before
-  uint32_t last_material = 0;               // in force at the end
-  std::vector<std::string> material_libraries;
+  std::vector<ObjName> material_names;  // [0] stands for the material in force before
+  uint32_t last_material = 0;           // in force at the end
+  std::vector<ObjName> material_libraries;
   uint32_t object_count = 0;
   uint32_t group_count = 0;
   uint32_t line_count = 0;

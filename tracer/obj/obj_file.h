@@ -22,6 +22,13 @@ struct ObjCorner {
   uint32_t normal = no_obj_index;
 };
 
+/// A name and the line, from 1, that first says it; 0 where none does.
+struct ObjName {
+  std::string text;
+  uint32_t line = 0;
+  bool operator==(const ObjName&) const = default;
+};
+
 /// A polygon of corner_count >= 3 corners from corners[first_corner].
 struct ObjFace {
   uint32_t first_corner = 0;
@@ -39,8 +46,8 @@ struct ObjFile {
   std::vector<Vec3f> normals;
   std::vector<ObjCorner> corners;
   std::vector<ObjFace> faces;
-  std::vector<std::string> material_names;  // [0] is "" until the first usemtl
-  std::vector<std::string> material_libraries;
+  std::vector<ObjName> material_names;  // [0] is "" until the first usemtl
+  std::vector<ObjName> material_libraries;
   uint32_t object_count = 0;  // o
   uint32_t group_count = 0;   // g
   int64_t dropped_faces = 0;  // each has a warning

@@ -32,13 +32,23 @@ std::string lower_case(std::string_view text) {
   return result;
 }
 
+/// As the format writes it, whatever case the file has; empty for what is passed over.
+std::string known_keyword(std::string_view written) {
+  constexpr std::array<std::string_view, 10> known{"newmtl", "Kd", "Ks", "Ke",    "Ns",
+                                                   "Ni",     "d",  "Tr", "illum", "map_Kd"};
+  const auto found = std::find_if(known.begin(), known.end(), [&](std::string_view keyword) {
+    return lower_case(keyword) == lower_case(written);
+  });
+  return std::string(found == known.end() ? std::string_view() : *found);
+}
+
 class MtlParser {
  public:
   MtlParser(std::string_view bytes, const std::string& path) : cursor_(bytes), path_(path) {}
 
   MtlFile parse() {
     while (cursor_.next_statement()) {
-      parse_statement(lower_case(cursor_.token()));
+      parse_statement(known_keyword(cursor_.token()));
       cursor_.finish_statement();
     }
     return std::move(file_);
@@ -51,7 +61,7 @@ class MtlParser {
       material.name = cursor_.name();
       file_.materials.push_back(std::move(material));
       has_opacity_ = false;
-    } else if (is_value(keyword)) {
+    } else if (!keyword.empty()) {
       if (file_.materials.empty()) {
         warn(keyword + " stands before the first newmtl");
       } else {
@@ -60,27 +70,21 @@ class MtlParser {
     }
   }
 
-  static bool is_value(const std::string& keyword) {
-    constexpr std::array<std::string_view, 9> known{"kd", "ks", "ke",    "ns",    "ni",
-                                                    "d",  "tr", "illum", "map_kd"};
-    return std::find(known.begin(), known.end(), keyword) != known.end();
-  }
-
   void parse_value(const std::string& keyword, MtlMaterial& material) {
-    if (keyword == "kd") {
+    if (keyword == "Kd") {
       parse_color(keyword, material.kd);
-    } else if (keyword == "ks") {
+    } else if (keyword == "Ks") {
       parse_color(keyword, material.ks);
-    } else if (keyword == "ke") {
+    } else if (keyword == "Ke") {
       parse_color(keyword, material.ke);
-    } else if (keyword == "ns") {
+    } else if (keyword == "Ns") {
       parse_number(keyword, material.ns);
-    } else if (keyword == "ni") {
+    } else if (keyword == "Ni") {
       parse_number(keyword, material.ni);
     } else if (keyword == "illum") {
       parse_illum(material);
-    } else if (keyword == "map_kd") {
-      parse_map(material.map_kd);
+    } else if (keyword == "map_Kd") {
+      parse_map(material);
     } else {
       parse_opacity(keyword, material.d);
     }
@@ -132,11 +136,12 @@ class MtlParser {
     }
   }
 
-  void parse_map(std::string& path) {
+  void parse_map(MtlMaterial& material) {
     while (!cursor_.at_statement_end() && skip_option()) {
     }
-    path = cursor_.name();
-    if (path.empty()) warn("map_kd: the path is missing");
+    material.map_kd = cursor_.name();
+    material.map_kd_line = cursor_.statement_line();
+    if (material.map_kd.empty()) warn("map_Kd: the path is missing");
   }
 
   bool skip_option() {

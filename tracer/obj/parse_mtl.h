@@ -20,7 +20,8 @@ struct MtlMaterial {
   float ni = 1;
   float d = 1;  // 1 - Tr
   int illum = 1;
-  std::string map_kd;  // path as written, options removed; empty for none
+  std::string map_kd;        // path as written, options removed; empty for none
+  uint32_t map_kd_line = 0;  // from 1
 };
 
 struct MtlFile {

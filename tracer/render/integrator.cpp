@@ -19,7 +19,7 @@ Vec3d radiance(const World& world, RayCaster& rays, const Ray& ray, Sampler& sam
 template <class Method>
 Vec3d describe(const World& world, RayCaster& rays, const Ray& ray, Sampler& sampler,
                const RenderSettings& settings, std::string& text) {
-  TextRecorder recorder(text);
+  TextRecorder recorder(text, world.scene->mesh->origin);
   return Method::radiance(world, rays, ray, sampler, settings, recorder);
 }
 

@@ -19,15 +19,20 @@ void append(std::string& text, fmt::format_string<Arguments...> format, Argument
 
 }  // namespace
 
+std::string TextRecorder::place(const Vec3d& position) const {
+  const Vec3d v = mesh_origin_ + position;
+  return fmt::format("({:.10g} {:.10g} {:.10g})", v.x, v.y, v.z);
+}
+
 void TextRecorder::camera(const Ray& ray) {
-  append(text_, "{}  camera  origin {}  direction {}\n", vertex_count_++, words(ray.origin),
+  append(text_, "{}  camera  origin {}  direction {}\n", vertex_count_++, place(ray.origin),
          words(ray.direction));
 }
 
 void TextRecorder::hit(const Ray& ray, const Hit& hit, const Surface& surface,
                        const Vec3d& throughput, const Vec3d& radiance) {
   append(text_, "{}  triangle {}  t {:.9g}  position {}  normal {}  albedo {}", vertex_count_++,
-         hit.primitive, hit.t * glm::length(Vec3d(ray.direction)), words(surface.position),
+         hit.primitive, hit.t * glm::length(Vec3d(ray.direction)), place(surface.position),
          words(surface.shading_normal), words(surface.albedo));
   if (surface.emission != Vec3d(0)) append(text_, "  emission {}", words(surface.emission));
   append(text_, "  throughput {}  radiance {}\n", words(throughput), words(radiance));

@@ -23,7 +23,9 @@ struct NoRecorder {
 /// vertex scatters from it.
 class TextRecorder {
  public:
-  explicit TextRecorder(std::string& text) : text_(text) {}
+  /// Positions are written in the file's coordinates, `mesh_origin` + position.
+  TextRecorder(std::string& text, const Vec3d& mesh_origin)
+      : text_(text), mesh_origin_(mesh_origin) {}
 
   void camera(const Ray& ray);
   void hit(const Ray& ray, const Hit& hit, const Surface& surface, const Vec3d& throughput,
@@ -34,7 +36,10 @@ class TextRecorder {
   void end(const char* reason);
 
  private:
+  std::string place(const Vec3d& position) const;
+
   std::string& text_;
+  const Vec3d mesh_origin_;
   int vertex_count_ = 0;
 };
 

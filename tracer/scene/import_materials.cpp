@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "tracer/base/mapped_file.h"
+#include "tracer/base/file_bytes.h"
 #include "tracer/base/parallel.h"
 #include "tracer/obj/parse_mtl.h"
 #include "tracer/obj/text_cursor.h"
@@ -27,14 +27,21 @@ std::optional<std::filesystem::path> resolve_path(const std::filesystem::path& f
   return resolved;
 }
 
-std::string refusal(const std::string& written) {
-  return quote_text(written) + " is refused: paths must stay in the model's folder";
+/// What stands behind the last separator.
+std::string file_name_of(const std::string& written) {
+  return written.substr(written.find_last_of("/\\:") + 1);
 }
 
-/// A texture that a material asks for, and who asks.
+std::string refusal(const std::string& written) {
+  return quote_text(written) + " is refused: paths must stay in the model's folder, and " +
+         quote_text(file_name_of(written)) + " is not there";
+}
+
+/// A texture that a material asks for, and where it asks.
 struct TextureRequest {
   std::filesystem::path path;
   std::string library;
+  int64_t line = 0;
 };
 
 struct DecodedTexture {
@@ -52,7 +59,7 @@ class MaterialImporter {
 
   ImportedMaterials import(const std::vector<bool>& is_textured) {
     progress_.start_stage("reading materials");
-    for (const std::string& name : file_.material_libraries) add_library(name);
+    for (const ObjName& name : file_.material_libraries) add_library(name);
     for (size_t i = 0; i < file_.material_names.size(); ++i) {
       add_material(file_.material_names[i], is_textured[i]);
     }
@@ -68,27 +75,43 @@ class MaterialImporter {
     std::string library;
   };
 
-  void warn(const std::string& path, const std::string& what) {
-    result_.warnings.add({path, 0, what});
+  /// Where `written`, found in `folder`, is to be read: exporters write paths of their own machine,
+  /// so that a file of its name in `folder` stands in for one that is refused or missing.
+  std::optional<std::filesystem::path> locate(const std::filesystem::path& folder,
+                                              const std::string& written) const {
+    auto named = resolve_path(folder, written);
+    if (named && is_file(*named)) return named;
+    auto beside = resolve_path(folder, file_name_of(written));
+    if (beside && is_file(*beside)) return beside;
+    return named;
   }
 
-  void add_library(const std::string& name) {
-    const auto path = resolve_path({}, name);
-    if (!path) return warn(model_path_, "material library " + refusal(name));
+  bool is_file(const std::filesystem::path& path) const {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(model_folder_ / path, ignored);
+  }
+
+  void warn(uint32_t line, const std::string& what) {
+    result_.warnings.add({model_path_, line, what});
+  }
+
+  void add_library(const ObjName& name) {
+    const auto path = locate({}, name.text);
+    if (!path) return warn(name.line, "material library " + refusal(name.text));
     if (!seen_libraries_.try_emplace(path->string(), true).second) return;
     progress_.throw_if_stopped();
     const std::string full_path = (model_folder_ / *path).string();
     try {
-      const MappedFile mapped(full_path);
-      MtlFile parsed = parse_mtl(mapped.bytes(), full_path);
-      result_.warnings.append(parsed.warnings);
+      const FileBytes text(full_path);
+      MtlFile parsed = parse_mtl(text.bytes(), full_path);
+      result_.library_warnings.append(parsed.warnings);
       for (MtlMaterial& material : parsed.materials) {
         std::string key = material.name;
         definitions_.try_emplace(std::move(key),
                                  Definition{std::move(material), path->parent_path(), full_path});
       }
     } catch (const LoadError& error) {
-      result_.warnings.add({model_path_, 0, std::string("material library: ") + error.what()});
+      warn(name.line, std::string("material library: ") + error.what());
     }
   }
 
@@ -100,15 +123,15 @@ class MaterialImporter {
     return found == definitions_.end() ? nullptr : &found->second;
   }
 
-  void add_material(const std::string& name, bool is_textured) {
+  void add_material(const ObjName& name, bool is_textured) {
     Material material;
-    material.name = name;
-    if (const Definition* definition = find_definition(name)) {
+    material.name = name.text;
+    if (const Definition* definition = find_definition(name.text)) {
       copy_values(definition->material, material);
       if (is_textured && !definition->material.map_kd.empty()) {
         material.diffuse_texture = request_texture(*definition);
       }
-    } else if (!name.empty()) {
+    } else if (!name.text.empty()) {
       if (unknown_count_++ == 0) first_unknown_ = name;
     }
     result_.materials.push_back(std::move(material));
@@ -126,22 +149,26 @@ class MaterialImporter {
 
   uint32_t request_texture(const Definition& definition) {
     const std::string& written = definition.material.map_kd;
-    const auto path = resolve_path(definition.folder, written);
+    const int64_t line = definition.material.map_kd_line;
+    const auto path = locate(definition.folder, written);
     if (!path) {
-      warn(definition.library, "map_Kd " + refusal(written));
+      result_.library_warnings.add({definition.library, line, "map_Kd " + refusal(written)});
       return no_texture;
     }
     const auto next = static_cast<uint32_t>(requests_.size());
     const auto [entry, is_new] = request_indices_.try_emplace(path->string(), next);
-    if (is_new) requests_.push_back({model_folder_ / *path, definition.library});
+    if (is_new) requests_.push_back({model_folder_ / *path, definition.library, line});
     return entry->second;
   }
 
   void warn_of_unknown() {
     if (unknown_count_ == 0) return;
-    std::string what = "material " + quote_text(first_unknown_);
+    std::string what = "material " + quote_text(first_unknown_.text);
     if (unknown_count_ > 1) what += " and " + std::to_string(unknown_count_ - 1) + " more";
-    warn(model_path_, what + ": in no material library, shown in the default grey");
+    what += ": in no material library, shown in the default grey";
+    Warnings unknown;
+    unknown.add({model_path_, first_unknown_.line, what});
+    result_.warnings = merged_by_line(result_.warnings, unknown);
   }
 
   void decode_textures() {
@@ -165,7 +192,8 @@ class MaterialImporter {
     std::vector<uint32_t> kept(decoded.size(), no_texture);
     for (size_t i = 0; i < decoded.size(); ++i) {
       if (decoded[i].fault) {
-        warn(requests_[i].library, "map_Kd: " + *decoded[i].fault);
+        result_.library_warnings.add(
+            {requests_[i].library, requests_[i].line, "map_Kd: " + *decoded[i].fault});
         continue;
       }
       kept[i] = static_cast<uint32_t>(result_.textures.size());
@@ -188,7 +216,7 @@ class MaterialImporter {
   std::vector<TextureRequest> requests_;
   std::unordered_map<std::string, uint32_t> request_indices_;
   int64_t unknown_count_ = 0;
-  std::string first_unknown_;
+  ObjName first_unknown_;
 };
 
 }  // namespace

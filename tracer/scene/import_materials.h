@@ -14,7 +14,8 @@ namespace tracer {
 struct ImportedMaterials {
   std::vector<Material> materials;  // one a name in ObjFile::material_names
   std::vector<Texture> textures;
-  Warnings warnings;
+  Warnings warnings;          // of the OBJ, in the order of its lines
+  Warnings library_warnings;  // of what it names
 };
 
 /// Reads the material libraries of the OBJ at `model_path` and, each once, the textures of the

@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "tracer/scene/import_obj.h"
 
-#include "tracer/base/mapped_file.h"
+#include "tracer/base/file_bytes.h"
 #include "tracer/obj/make_mesh.h"
 #include "tracer/scene/import_materials.h"
 
 namespace tracer {
 namespace {
 
-ObjFile read_obj(const MappedFile& file, const std::string& path, Progress& progress) {
-  if (file.bytes().empty()) {
-    throw LoadError({path, 0, "no triangles to show: the file is empty"});
+struct ReadObj {
+  ObjFile file;
+  size_t byte_count = 0;
+};
+
+/// The text is let go before the mesh is made.
+ReadObj read_obj(const std::filesystem::path& path, Progress& progress) {
+  progress.start_stage("loading");
+  const FileBytes text(path, progress);
+  if (text.bytes().empty()) {
+    throw LoadError({path.string(), 0, "no triangles to show: the file is empty"});
   }
-  return parse_obj(file.bytes(), path, progress);
+  return {parse_obj(text.bytes(), path.string(), progress), text.bytes().size()};
 }
 
 /// Textures are of use where there are coordinates to look them up by.
@@ -28,8 +36,7 @@ std::vector<bool> find_textured_materials(const Mesh& mesh, size_t material_coun
 
 ImportedScene import_obj(const std::filesystem::path& path, Progress& progress) {
   const std::string name = path.string();
-  const MappedFile mapped(path);
-  ObjFile file = read_obj(mapped, name, progress);
+  const auto [file, byte_count] = read_obj(path, progress);
   ObjMesh made = make_mesh(file, name, progress);
 
   ImportedScene result;
@@ -39,13 +46,13 @@ ImportedScene import_obj(const std::filesystem::path& path, Progress& progress) 
   result.dropped_faces = file.dropped_faces + made.dropped_faces;
   result.object_count = file.object_count;
   result.group_count = file.group_count;
-  result.file_bytes = mapped.bytes().size();
-  result.warnings = std::move(file.warnings);
-  result.warnings.append(made.warnings);
+  result.file_bytes = byte_count;
+  result.bounds = made.bounds;
 
   ImportedMaterials imported = import_materials(
       path, file, find_textured_materials(made.mesh, file.material_names.size()), progress);
-  result.warnings.append(imported.warnings);
+  result.warnings = merged_by_line(merged_by_line(file.warnings, made.warnings), imported.warnings);
+  result.warnings.append(imported.library_warnings);
 
   Scene scene;
   scene.lights = std::make_shared<const EmissiveTriangles>(

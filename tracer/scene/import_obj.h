@@ -5,12 +5,14 @@
 
 #include "tracer/base/error.h"
 #include "tracer/base/progress.h"
+#include "tracer/geometry/world_bounds.h"
 #include "tracer/scene/scene.h"
 
 namespace tracer {
 
 struct ImportedScene {
-  Scene scene;  // smooth where the file has normals, else flat
+  Scene scene;         // smooth where the file has normals, else flat
+  WorldBounds bounds;  // of the triangles
   bool has_normals = false;
   uint32_t face_count = 0;    // polygons kept
   int64_t dropped_faces = 0;  // polygons left out
@@ -20,8 +22,9 @@ struct ImportedScene {
   Warnings warnings;
 };
 
-/// Reads an OBJ, its material libraries and the textures that used materials name. Paths that
-/// climb out of the model's folder are refused with a warning. Throws LoadError when there is
+/// Reads an OBJ, its material libraries and the textures that used materials name. A path that
+/// leads out of the model's folder, or to nothing, stands for the file of that name beside who
+/// names it; where there is none, that is a warning. Throws LoadError when there is
 /// nothing to show, Cancelled when asked to stop.
 ImportedScene import_obj(const std::filesystem::path& path, Progress& progress);
 

@@ -9,7 +9,7 @@
 #include <stb_image.h>
 
 #include "tracer/base/error.h"
-#include "tracer/base/mapped_file.h"
+#include "tracer/base/file_bytes.h"
 
 namespace tracer {
 namespace {
@@ -59,7 +59,9 @@ class Decoder {
   }
   [[noreturn]] void fail_to_decode() const {
     const char* reason = stbi_failure_reason();
-    fail(std::string("no image that can be read: ") + (reason ? reason : "unknown format"));
+    const bool has_reason = reason && *reason;
+    fail(std::string("no image that can be read: ") +
+         (has_reason ? reason : "unknown format, or damaged"));
   }
 
   void check_dimensions() const {
@@ -98,7 +100,7 @@ class Decoder {
   }
 
   const std::filesystem::path& path_;
-  MappedFile file_;
+  FileBytes file_;
   const stbi_uc* bytes_ = nullptr;
   int size_ = 0;
 };

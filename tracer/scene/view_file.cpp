@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tracer/base/error.h"
-#include "tracer/base/mapped_file.h"
+#include "tracer/base/file_bytes.h"
 #include "tracer/base/write_file.h"
 
 namespace tracer {
@@ -40,8 +40,8 @@ class ViewReader {
   }
   Vec3d radiance(const char* key) const {
     const std::optional<Vec3d> value = numbers(key);
-    if (!value || value->x < 0 || value->y < 0 || value->z < 0) {
-      fail_at(key, "three numbers of 0 or more, [r,g,b]");
+    if (!value || !is_radiance(*value)) {
+      fail_at(key, "three numbers from 0 to 1e30, [r,g,b]");
     }
     return *value;
   }
@@ -88,7 +88,7 @@ class ViewReader {
 };
 
 Json parse_json(const std::filesystem::path& path) {
-  const MappedFile file(path);
+  const FileBytes file(path);
   const std::string_view bytes = file.bytes();
   try {
     return Json::parse(bytes);
@@ -96,8 +96,10 @@ Json parse_json(const std::filesystem::path& path) {
     const std::string_view before = bytes.substr(0, std::min<size_t>(error.byte, bytes.size()));
     const auto line = 1 + std::ranges::count(before, '\n');
     throw LoadError({path.string(), line, "this is not JSON"});
-  } catch (const Json::exception& error) {
-    throw LoadError({.path = path.string(), .what = error.what()});
+  } catch (const Json::out_of_range&) {
+    throw LoadError({.path = path.string(), .what = "a number is too large"});
+  } catch (const Json::exception&) {
+    throw LoadError({.path = path.string(), .what = "this is no view"});
   }
 }
 
@@ -106,6 +108,11 @@ Json to_json(const Vec3d& v) {
 }
 
 }  // namespace
+
+bool is_radiance(const Vec3d& rgb) {
+  constexpr double largest = 1e30;
+  return std::min({rgb.x, rgb.y, rgb.z}) >= 0 && max_abs(rgb) <= largest;
+}
 
 View load_view(const std::filesystem::path& path) {
   const Json json = parse_json(path);

@@ -8,6 +8,9 @@
 
 namespace tracer {
 
+/// Not below 0, and not so large that light sums to infinity in float.
+bool is_radiance(const Vec3d& rgb);
+
 /// {"eye":[x,y,z],"target":[..],"up":[..],"fov":degrees,"size":[w,h],"sky":[r,g,b]}; every key but
 /// eye and target may be missing.
 struct View {

@@ -143,7 +143,7 @@ std::optional<std::filesystem::path> OpenDialog::draw(const Ui& ui, const Pictur
   if (ImGui::Button("Cancel", ImVec2(button_width, 0))) close();
   if (!listing_.error.empty()) ImGui::TextColored(palette::error, "%s", listing_.error.c_str());
   if (listing_.error.empty() && shown_.empty()) ImGui::TextDisabled("no OBJ files here");
-  const auto chosen = draw_entries(ui, ImGui::GetContentRegionAvail().y);
+  auto chosen = draw_entries(ui, ImGui::GetContentRegionAvail().y);
   ImGui::End();
   return chosen;
 }
