@@ -44,6 +44,7 @@ struct Session::State {
   void build(std::unique_lock<std::mutex>& lock);
   std::shared_ptr<tracer::Progress> begin_job(JobKind kind, std::string path);
   void end_job();
+  void set_error(std::string text);
 
   bool wants_shading() const;
   bool wants_tree() const;
@@ -64,6 +65,7 @@ struct Session::State {
   std::optional<std::filesystem::path> open_request;
   Job job;
   std::string error;
+  uint64_t error_generation = 0;
   std::optional<LoadedModel> model;
   BuiltTree tree;                     // over the model
   std::optional<BuiltTree> off_tree;  // the one that was in use when the BVH was switched off
@@ -127,6 +129,11 @@ void Session::State::end_job() {
   post_news();
 }
 
+void Session::State::set_error(std::string text) {
+  error = std::move(text);
+  ++error_generation;
+}
+
 void Session::State::load(std::unique_lock<std::mutex>& lock) {
   const std::filesystem::path path = *std::exchange(open_request, std::nullopt);
   error.clear();
@@ -154,7 +161,7 @@ void Session::State::load(std::unique_lock<std::mutex>& lock) {
   }
 
   lock.lock();
-  error = failure;
+  if (!failure.empty()) set_error(failure);
   if (loaded && !progress->stop_requested()) {
     model = std::move(loaded);
     model->generation = ++generation;
@@ -196,7 +203,7 @@ void Session::State::build(std::unique_lock<std::mutex>& lock) {
 
   lock.lock();
   if (!failure.empty()) {
-    error = failure;
+    set_error(failure);
     declined = key;
   }
   if (built) {
@@ -234,6 +241,7 @@ Status Session::State::status() {
   }
   status.loading_path = open_request ? open_request->string() : job.path;
   status.error = error;
+  status.error_generation = error_generation;
   if (model) {
     status.model_path = model->path;
     status.model_generation = model->generation;

@@ -29,7 +29,7 @@ struct Edits {
   tracer::Shading shading = tracer::Shading::flat;
   const tracer::Integrator* integrator = nullptr;  // nullptr: the first of the table
   tracer::RenderSettings render;
-  const tracer::Builder* builder = nullptr;  // nullptr: BVH off, brute force
+  const tracer::Builder* builder = &tracer::builders().front();  // nullptr: BVH off, brute force
   const tracer::Layout* layout = &tracer::layouts().front();
   tracer::BuildSettings build;
   int sample_limit = 1024;
@@ -44,6 +44,7 @@ struct Status {
   float fraction = 0;             // of the stage
   std::string loading_path;       // while is_loading
   std::string error;              // of the last load, empty when it went well
+  uint64_t error_generation = 0;  // grows with every error, equal ones too
   std::string model_path;         // empty: none yet
   uint64_t model_generation = 0;  // grows with every model that replaces another
   std::shared_ptr<const tracer::ImportedScene> model;

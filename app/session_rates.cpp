@@ -18,8 +18,7 @@ void TraceRates::add(TraceMode mode, uint64_t rays, double seconds, double end_s
   Total& total = mode == TraceMode::bvh ? bvh_ : brute_force_;
   total.rays += rays;
   total.seconds += seconds;
-  if (!recent_.empty() && recent_.back().mode != mode) recent_.clear();
-  recent_.push_back({mode, {rays, seconds}, end_seconds});
+  recent_.push_back({{rays, seconds}, end_seconds});
   while (recent_.size() > 1 && recent_.front().end_seconds < end_seconds - recent_seconds) {
     recent_.pop_front();
   }

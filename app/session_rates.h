@@ -17,6 +17,8 @@ class TraceRates {
 
   uint64_t rays() const { return bvh_.rays + brute_force_.rays; }
   double seconds() const { return bvh_.seconds + brute_force_.seconds; }
+  /// For a change of mode: recent_mrays_per_second() is 0 until more is traced.
+  void forget_recent() { recent_.clear(); }
   /// Over the last second of tracing; since the mode changed, when that is less.
   double recent_mrays_per_second() const;
   /// Over all rays of this picture that were traced in this mode; 0 when there were none.
@@ -28,7 +30,6 @@ class TraceRates {
     double seconds = 0;
   };
   struct Stretch {
-    TraceMode mode;
     Total total;
     double end_seconds;
   };

@@ -10,7 +10,7 @@ namespace {
 
 // A pass is stopped and resumed about this often, so that rates are known long before a slow pass
 // ends.
-constexpr double slice_seconds = 0.25;
+constexpr double least_slice_seconds = 0.25;
 
 double now_seconds() {
   using Clock = std::chrono::steady_clock;
@@ -24,7 +24,10 @@ TraceMode mode_of(const tracer::World& world) {
 }  // namespace
 
 SessionRenderer::SessionRenderer(std::function<void()> notify)
-    : notify_(std::move(notify)), thread_([this] { run(); }) {}
+    : notify_(std::move(notify)),
+      slice_seconds_(least_slice_seconds),
+      slice_end_([this] { stop_.request(); }),
+      thread_([this] { run(); }) {}
 
 SessionRenderer::~SessionRenderer() {
   {
@@ -53,6 +56,7 @@ void SessionRenderer::resume_with(std::shared_ptr<const tracer::World> world) {
   {
     const std::lock_guard lock(mutex_);
     PictureRequest& picture = requested_ ? *requested_ : current_;
+    if (picture.world && mode_of(*picture.world) != mode_of(*world)) rates_.forget_recent();
     picture.world = std::move(world);
     stop_.request();
   }
@@ -94,6 +98,7 @@ void SessionRenderer::run() {
 
 void SessionRenderer::adopt_request(std::unique_lock<std::mutex>& lock) {
   current_ = *std::exchange(requested_, std::nullopt);
+  slice_seconds_ = least_slice_seconds;
   const tracer::Vec2i size_px = current_.size_px;
   lock.unlock();  // a large film takes milliseconds to clear
   if (film_ && film_->size_px() == size_px) {
@@ -113,17 +118,22 @@ void SessionRenderer::trace_slice(std::unique_lock<std::mutex>& lock) {
   lock.unlock();
 
   const double start = now_seconds();
-  const auto on_tile = [&](const tracer::Tile& tile) {
-    queue_tile(tile, generation);
-    if (now_seconds() - start > slice_seconds) stop_.request();
-  };
+  slice_end_.set(slice_seconds_);
+  const auto on_tile = [&](const tracer::Tile& tile) { queue_tile(tile, generation); };
   const tracer::PassStats stats = tracer::render_pass(
       *picture.world, *picture.integrator, picture.settings, pass, *film_, stop_, on_tile);
+  slice_end_.clear();
   const double end = now_seconds();
+  const bool was_in_vain = stats.samples == 0 && end - start >= slice_seconds_;
+  // A stopped pixel begins anew, so a slice has to be long enough for one.
+  if (was_in_vain) slice_seconds_ *= 2;
+  if (stats.is_complete) slice_seconds_ = least_slice_seconds;
 
   lock.lock();
   if (generation != generation_) return;
-  rates_.add(mode_of(*picture.world), stats.rays, end - start, end);
+  const TraceMode mode = mode_of(*picture.world);
+  rates_.add(mode, stats.rays, end - start, end);
+  if (mode != mode_of(*current_.world)) rates_.forget_recent();
   if (stats.is_complete) pass_ = tracer::next_pass(pass);
   notify_();
 }

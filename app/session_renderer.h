@@ -10,6 +10,7 @@
 #include <optional>
 #include <thread>
 
+#include "app/session_alarm.h"
 #include "app/session_rates.h"
 #include "app/session_tiles.h"
 #include "tracer/render/render.h"
@@ -70,7 +71,9 @@ class SessionRenderer {
   uint64_t generation_ = 0;  // of the film, grows with every clearing
   TraceRates rates_;
   bool is_rendering_ = false;
-  std::unique_ptr<tracer::Film> film_;  // the render thread's alone
+  std::unique_ptr<tracer::Film> film_;  // the render thread's alone, as is the next
+  double slice_seconds_ = 0;
+  Alarm slice_end_;
   std::thread thread_;
 };
 

@@ -34,7 +34,7 @@ int run_view(const std::vector<std::string>& arguments) {
     options.thread_count = parse_whole_number(text, 1, max_threads);
   });
   add_value(
-      app, "--frames", "N", "close after so many frames of the model",
+      app, "--frames", "N", "close when the picture has N samples a pixel",
       [&](const std::string& text) { options.frames = parse_whole_number(text, 1, 1000000); });
   add_path(app, "--screenshot", "FILE.png", "write the last frame of --frames here",
            [&](const auto& path) { options.screenshot = path; })

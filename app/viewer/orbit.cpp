@@ -107,8 +107,9 @@ Camera dolly(const Camera& camera, double factor, const Vec2d& cursor_px, double
 
 Camera look_along(const Camera& camera, Axis axis, const Vec3d& up) {
   const bool is_z_up = std::abs(up.z) > std::abs(up.y);
-  const Vec3d front_heading = is_z_up ? Vec3d(0, 1, 0) : Vec3d(0, 0, -1);
-  const Vec3d right_heading(-1, 0, 0);
+  const Vec3d front = is_z_up ? Vec3d(0, 1, 0) : Vec3d(0, 0, -1);
+  const Vec3d front_heading = normalize(front - dot(front, up) * up);
+  const Vec3d right_heading = cross(up, front_heading);
   switch (axis) {
     case Axis::front:
       return place_eye(camera, up, front_heading, 0);

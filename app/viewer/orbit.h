@@ -25,8 +25,9 @@ tracer::Camera dolly(const tracer::Camera& camera, double factor, const tracer::
 
 enum class Axis { front, back, right, left, top, bottom };
 
-/// Looks at the same target from the same distance along an axis of the world in which `up`, +Y or
-/// +Z, is up: the front is +Z of a Y-up world and -Y of a Z-up world, as Blender and F3D have it.
+/// Looks at the same target from the same distance along an axis of the world in which `up`, unit
+/// length, is up: the front is +Z of a Y-up world and -Y of a Z-up world, as Blender and F3D have
+/// it; a tilted world has what is nearest to that across `up`.
 tracer::Camera look_along(const tracer::Camera& camera, Axis axis, const tracer::Vec3d& up);
 
 }  // namespace app

@@ -43,7 +43,7 @@ std::filesystem::path next_screenshot_path(const std::filesystem::path& folder,
 void ScreenshotWriter::write(const std::filesystem::path& path, tracer::Image image,
                              double exposure) {
   written_ = std::async(std::launch::async, [this, path, image = std::move(image), exposure] {
-    std::string message = "Saved " + path.filename().string();
+    std::string message = "Saved " + path.string();
     try {
       tracer::write_image(path, image, exposure);
     } catch (const std::exception& exception) {

@@ -49,17 +49,22 @@ Viewer::Viewer(const ViewOptions& options)
 }
 
 int Viewer::run() {
+  send_edits();  // the first load builds the tree that they ask for
   if (options_.model) open(*options_.model);
   frames_due_ = frames_to_settle;
   while (!window_.should_close() && !is_run_over()) {
     wait();
     if (window_.take_activity()) frames_due_ = frames_to_settle;
-    for (const auto& path : window_.take_drops()) open(path);
+    for (const auto& path : window_.take_drops()) {
+      open_dialog_.close();
+      open(path);
+    }
     watch_files();
     if (seconds_to_frame() <= 0) draw_frame();
   }
   window_.hide();
-  return options_.model && adopted_generation_ == 0 ? 2 : 0;
+  const bool is_failed = adopted_generation_ == 0 && reported_error_generation_ > 0;
+  return options_.model && is_failed ? 2 : 0;
 }
 
 double Viewer::seconds_to_frame() const {
@@ -78,7 +83,7 @@ double Viewer::seconds_to_frame() const {
 
 void Viewer::wait() {
   const double frame_wait = seconds_to_frame();
-  const bool has_file = !adopted_path_.empty();
+  const bool has_file = !requested_path_.empty();
   const double timeout = has_file ? std::min(frame_wait, watch_interval) : frame_wait;
   if (timeout <= 0) {
     window_.poll_events();
@@ -90,7 +95,7 @@ void Viewer::wait() {
 }
 
 void Viewer::watch_files() {
-  if (!is_job_running() && file_watch_.has_changed(glfwGetTime())) open(adopted_path_);
+  if (!is_job_running() && file_watch_.has_changed(glfwGetTime())) open(requested_path_);
 }
 
 bool Viewer::has_finished_picture() const {

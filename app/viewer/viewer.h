@@ -89,9 +89,10 @@ class Viewer {
   double toast_end_seconds_ = 0;
 
   Status status_;
-  std::string reported_error_;  // the last on stderr
+  uint64_t reported_error_generation_ = 0;  // the last on stderr
   uint64_t adopted_generation_ = 0;
   std::string adopted_path_;
+  std::filesystem::path requested_path_;  // the last that was to be opened; empty: none yet
   double job_start_seconds_ = 0;
 
   std::atomic<bool> has_news_{false};

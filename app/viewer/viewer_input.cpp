@@ -48,11 +48,10 @@ void Viewer::handle_key(const InputEvent& event) {
 void Viewer::execute(Command command) {
   switch (command) {
     case Command::open:
-      open_dialog_.open(adopted_path_.empty() ? working_folder()
-                                              : std::filesystem::path(adopted_path_).parent_path());
+      open_dialog_.open(requested_path_.empty() ? working_folder() : requested_path_.parent_path());
       break;
     case Command::reload:
-      if (!adopted_path_.empty()) open(adopted_path_);
+      if (!requested_path_.empty()) open(requested_path_);
       break;
     case Command::save_view:
       save_view();

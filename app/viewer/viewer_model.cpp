@@ -31,8 +31,10 @@ const tracer::Integrator* first_integrator(const tracer::Scene& scene) {
 void Viewer::open(const std::filesystem::path& path) {
   std::error_code error;
   const std::filesystem::path absolute = std::filesystem::absolute(path, error);
-  session_.open(error ? path : absolute);
-  open_dialog_.close();
+  requested_path_ = error ? path : absolute;
+  file_watch_.watch(requested_path_);  // before it is read: a change during the load counts
+  session_.open(requested_path_);
+  shown_error_.clear();
   status_.is_loading = true;
   job_start_seconds_ = glfwGetTime();
 }
@@ -50,9 +52,10 @@ void Viewer::take_update() {
 }
 
 void Viewer::report_error() {
-  if (status_.error == reported_error_) return;
-  reported_error_ = shown_error_ = status_.error;
-  if (!reported_error_.empty()) fmt::print(stderr, "{}\n", reported_error_);
+  if (status_.error_generation == reported_error_generation_) return;
+  reported_error_generation_ = status_.error_generation;
+  shown_error_ = status_.error;
+  if (!shown_error_.empty()) fmt::print(stderr, "{}\n", shown_error_);
 }
 
 std::optional<tracer::View> Viewer::find_view() {
@@ -87,7 +90,6 @@ void Viewer::adopt_model() {
   }
   adopted_generation_ = status_.model_generation;
   adopted_path_ = status_.model_path;
-  file_watch_.watch(adopted_path_);
   are_warnings_shown_ = model.warnings.count() > 0;
   report_warnings(model);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/viewer/viewpoint.h"
 
+#include <cmath>
+
 namespace app {
 namespace {
 
@@ -21,7 +23,11 @@ Vec3d change_up(const Vec3d& direction, const Vec3d& from, const Vec3d& to) {
 Vec3d Viewpoint::up_vector() const {
   if (up_ == UpAxis::y) return y_up;
   if (up_ == UpAxis::z) return z_up;
-  return given_ ? normalize(given_->up) : guess_up(bounds_);
+  const Vec3d guessed = guess_up(bounds_);
+  if (!given_) return guessed;
+  // A view straight down or up keeps its heading in Camera::up.
+  const Vec3d forward = normalize(given_->target - given_->eye);
+  return std::abs(dot(forward, guessed)) > 1 - 1e-6 ? guessed : normalize(given_->up);
 }
 
 tracer::Camera Viewpoint::default_camera(double aspect) const {

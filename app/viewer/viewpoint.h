@@ -6,7 +6,7 @@
 
 #include "app/viewer/camera_controls.h"
 #include "app/viewer/orbit.h"
-#include "app/viewer/panels/settings_panel.h"
+#include "app/viewer/up_axis.h"
 #include "tracer/geometry/mesh.h"
 #include "tracer/scene/view_file.h"
 

@@ -36,6 +36,14 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+/// A camera ray a sample, and as much time as a large model without a tree would take.
+template <int pixel_ms>
+tracer::Vec3d slow_radiance(const tracer::World&, tracer::RayCaster& rays, const tracer::Ray& ray,
+                            tracer::Sampler&, const tracer::RenderSettings&) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(pixel_ms));
+  return tracer::Vec3d(rays.closest_hit(ray).is_hit() ? 1.0 : 0.5);
+}
+
 /// A session with the part of the window: adopts models, keeps the picture that the tiles make.
 class SessionTest : public testing::Test {
  protected:
@@ -43,7 +51,6 @@ class SessionTest : public testing::Test {
     folder_ = fs::temp_directory_path() / ("boxwood-session-" + std::to_string(getpid()));
     fs::create_directories(folder_);
     edits_.size_px = {96, 64};
-    edits_.builder = &tracer::builders().front();
     edits_.sample_limit = 2;
   }
   void TearDown() override {
@@ -126,6 +133,49 @@ TEST_F(SessionTest, shows_a_model_up_to_the_sample_limit) {
   const tracer::Vec3f corner = picture_.pixels.front();
   const tracer::Vec3f center = picture_.pixels[32 * 96 + 48];
   EXPECT_NE(corner, center);
+}
+
+TEST_F(SessionTest, the_first_model_comes_with_the_tree_that_the_edits_ask_for) {
+  session_->set(Edits{});
+  session_->open(ball("ball.obj", 24));
+  ASSERT_TRUE(wait_until([this] { return status_.model != nullptr; }));
+  EXPECT_GT(status_.tree.node_count, 0u);
+  ASSERT_TRUE(wait_until([this] { return status_.rays > 0; }));
+  EXPECT_EQ(status_.mrays_per_second_brute_force, 0);
+}
+
+TEST_F(SessionTest, a_rate_is_known_and_pixels_are_shown_before_a_slow_tile_is_done) {
+  static constexpr tracer::Integrator slow{"", "", "", slow_radiance<150>, nullptr};
+  edits_.integrator = &slow;
+  edits_.size_px = {64, 64};
+  session_->set(edits_);
+  session_->open(ball("ball.obj", 12));
+  ASSERT_TRUE(wait_until([this] { return status_.mrays_per_second > 0; }));
+  EXPECT_LT(status_.rays, 64u);  // of the first pass of the only tile
+  ASSERT_TRUE(wait_until([this] { return !picture_.pixels.empty(); }));
+  EXPECT_LT(status_.rays, 64u);
+}
+
+TEST_F(SessionTest, a_pixel_that_takes_longer_than_others_have_is_traced_all_the_same) {
+  static constexpr tracer::Integrator slow{"", "", "", slow_radiance<400>, nullptr};
+  edits_.integrator = &slow;
+  edits_.size_px = {2, 1};
+  edits_.sample_limit = 1;
+  EXPECT_TRUE(show(ball("ball.obj", 12)));
+}
+
+TEST_F(SessionTest, the_rate_is_unknown_after_the_bvh_is_switched_off_until_more_is_traced) {
+  ASSERT_TRUE(show(ball("ball.obj", 24)));
+  ASSERT_GT(status_.mrays_per_second, 0);
+  edits_.builder = nullptr;
+  session_->set(edits_);
+  ASSERT_TRUE(wait_until([this] { return status_.tree.node_count == 0; }));
+  EXPECT_EQ(status_.mrays_per_second, 0);
+  EXPECT_GT(status_.mrays_per_second_bvh, 0);
+  edits_.sample_limit = 8;
+  session_->set(edits_);
+  ASSERT_TRUE(wait_until([this] { return is_done(); }));
+  EXPECT_GT(status_.mrays_per_second, 0);
 }
 
 TEST_F(SessionTest, the_picture_is_the_film_of_the_passes) {
@@ -285,6 +335,14 @@ TEST_F(SessionTest, a_failed_load_keeps_the_model) {
   EXPECT_EQ(status_.error, "");
 }
 
+TEST_F(SessionTest, an_error_that_comes_again_is_a_new_one) {
+  for (uint64_t attempt = 1; attempt <= 3; ++attempt) {
+    session_->open(folder_ / "missing.obj");
+    ASSERT_TRUE(wait_until([&] { return status_.error_generation == attempt; }));
+    EXPECT_NE(status_.error.find("missing.obj"), std::string::npos);
+  }
+}
+
 TEST_F(SessionTest, a_cancelled_load_keeps_the_model) {
   ASSERT_TRUE(show(ball("ball.obj", 12)));
   const fs::path large = ball("large.obj", 300);
@@ -353,8 +411,7 @@ TEST(Session, wakes_once_between_two_polls) {
   const fs::path path = fs::temp_directory_path() / ("boxwood-wake-" + std::to_string(getpid()));
   write_ball(path, 12);
   Session session([&] { ++wake_count; });
-  Edits edits;
-  edits.builder = &tracer::builders().front();
+  const Edits edits;
   session.set(edits);
   session.open(path);
   std::this_thread::sleep_for(std::chrono::milliseconds(300));

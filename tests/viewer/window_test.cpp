@@ -124,6 +124,17 @@ TEST_F(BallWindowTest, a_file_that_changes_on_disk_is_loaded_again) {
   EXPECT_TRUE(wait_until([&] { return look_at("picture") != before; }));
 }
 
+TEST_F(BallWindowTest, a_reload_by_itself_leaves_the_open_dialog_open) {
+  press_key("ctrl+o");
+  ASSERT_TRUE(wait_for_widget("open ball.obj"));
+  ASSERT_TRUE(wait_until_settled());
+  const Rectangle numbers = statistics();
+  const auto before = look_at(numbers);
+  write_ball(folder_.path() / "ball.obj", 30);
+  ASSERT_TRUE(wait_until([&] { return look_at(numbers) != before; }));
+  EXPECT_TRUE(find_widget("open-filter").has_value());
+}
+
 TEST_F(BallWindowTest, the_open_dialog_loads_what_is_typed_and_chosen) {
   const auto before = look_at("picture");
   std::filesystem::create_directory(folder_.path() / "models");
@@ -203,6 +214,19 @@ TEST_F(WindowTest, a_first_model_that_cannot_be_shown_ends_a_test_run_with_2) {
   const ProgramResult result = program_->wait();
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("bad.obj"), std::string::npos) << result.err;
+}
+
+TEST_F(WindowTest, a_first_model_that_fails_is_explained_each_time_and_shown_once_it_is_mended) {
+  write_file(folder_.path() / "ball.obj", "v 0 0 0\nf 1 2 9\n");
+  start({"ball.obj"});
+  ASSERT_TRUE(wait_for_widget("error"));
+  press_key("Escape");
+  ASSERT_TRUE(wait_until([&] { return !find_widget("error").has_value(); }));
+  press_key("F5");
+  ASSERT_TRUE(wait_for_widget("error"));
+  write_ball(folder_.path() / "ball.obj", 20);
+  EXPECT_TRUE(wait_for_widget("model"));
+  EXPECT_TRUE(wait_until([&] { return !find_widget("error").has_value(); }));
 }
 
 TEST_F(WindowTest, without_a_model_it_waits_for_one) {

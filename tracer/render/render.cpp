@@ -90,7 +90,7 @@ PassStats render_pass(const World& world, const Integrator& integrator,
     samples += stats.samples;
     dropped += stats.dropped;
     if (!stats.is_complete) is_complete = false;
-    if (stats.is_complete && stats.samples > 0 && on_tile) on_tile(tiles[i]);
+    if (stats.samples > 0 && on_tile) on_tile(tiles[i]);
   });
   return {rays, samples, dropped, is_complete};
 }

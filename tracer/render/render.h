@@ -30,7 +30,8 @@ struct PassStats {
       false;  // false when stopped; the film stays valid, and the pass can be resumed
 };
 
-/// Called from a worker thread when a tile's part of the pass is done and the film holds it.
+/// Called from a worker thread when a tile's part of the pass is done, or as much of it as a stop
+/// lets be, and the film holds it.
 using TileCallback = std::function<void(const Tile&)>;
 
 /// Traces `pass` into the film, in parallel, and returns when it is done or stopped: at most some

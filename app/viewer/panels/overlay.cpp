@@ -123,7 +123,9 @@ OverlayAnswer draw_warnings(const Ui& ui, const PictureArea& area,
 
 void draw_toast(const Ui& ui, const PictureArea& area, const std::string& text) {
   begin_floating(ui, "##toast", area, ImVec2(0, 1));
+  ImGui::PushTextWrapPos(text_width(area, ui));
   ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
   ui.layout.note_last_item("toast");
   ImGui::End();
 }

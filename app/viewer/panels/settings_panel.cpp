@@ -73,9 +73,9 @@ void draw_sky(const Ui& ui, ViewerSettings& settings) {
   control_label(ui, "Sky");
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   begin_slider(settings.sky_brightness / brightest_slider, ImGui::GetFrameHeight() + gap);
-  ImGui::SliderFloat("##sky", &settings.sky_brightness, 0, brightest_slider, "%.2f");
+  ImGui::SliderFloat("##sky", &settings.sky_brightness, 0, brightest_slider, "%.2f",
+                     ImGuiSliderFlags_AlwaysClamp);
   end_slider();
-  settings.sky_brightness = std::max(settings.sky_brightness, 0.0f);
   finish_control(ui, "sky", "Radiance from everywhere around the model.");
   ImGui::SameLine(0, gap);
   ImGui::ColorEdit3("##sky-color", &settings.sky_color.x,

@@ -3,10 +3,9 @@
 
 #include "app/session.h"
 #include "app/viewer/panels/rows.h"
+#include "app/viewer/up_axis.h"
 
 namespace app {
-
-enum class UpAxis { automatic, y, z };
 
 /// The settings as the panel holds them.
 struct ViewerSettings {

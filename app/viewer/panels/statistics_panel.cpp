@@ -61,11 +61,13 @@ void draw_tracing(const Ui& ui, const Status& status, int sample_limit) {
   ui.layout.note_last_item("rate");
   const Quantity rays = format_large(static_cast<double>(status.rays));
   number_row(ui, "Rays", {rays.value, rays.unit});
-  number_row(ui, "Samples", {format_count(status.samples), fmt::format("/ {}", sample_limit)});
+  // What is traced stays when the limit is lowered below it.
+  const uint32_t limit = std::max(static_cast<uint32_t>(sample_limit), status.samples);
+  number_row(ui, "Samples", {format_count(status.samples), fmt::format("/ {}", limit)});
   ui.layout.note_last_item("samples");
   number_row(ui, "Time", format_seconds(status.seconds));
-  const float part = static_cast<float>(status.samples) / static_cast<float>(sample_limit);
-  ImGui::ProgressBar(std::min(part, 1.0f), ImVec2(-FLT_MIN, 3 * ui.scale), "");
+  const float part = static_cast<float>(status.samples) / static_cast<float>(limit);
+  ImGui::ProgressBar(part, ImVec2(-FLT_MIN, 3 * ui.scale), "");
 }
 
 }  // namespace
