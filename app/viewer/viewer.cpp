@@ -113,12 +113,15 @@ bool Viewer::is_run_over() const {
 void Viewer::draw_frame() {
   last_frame_seconds_ = glfwGetTime();
   frames_due_ = std::max(frames_due_ - 1, 0);
-  take_update();
-  if (window_.framebuffer_px().x == 0) return;
-  const bool is_last = options_.frames > 0 && has_finished_picture();
-
+  if (window_.framebuffer_px().x == 0) {
+    take_update();
+    return;
+  }
+  // The scale is known from here on, and with it the picture's aspect, which frames a new model.
   gui_.begin_frame();
   lay_out();
+  take_update();
+  const bool is_last = options_.frames > 0 && has_finished_picture();
   handle_input();
   const Ui ui{layout_, gui_.fonts(), gui_.scale()};
   draw_panel(ui);
