@@ -12,8 +12,8 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
+#include "tests/support/temporary_folder.h"
 #include "tracer/base/error.h"
 #include "tracer/render/develop.h"
 #include "tracer/scene/texture.h"
@@ -41,12 +41,8 @@ Image make_image(Vec2i size) {
 
 class WriteImage : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / ("write_image_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(WriteImage, pfm_holds_the_bits_from_the_bottom_up) {
