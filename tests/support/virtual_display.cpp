@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <sstream>
 
 #include <fcntl.h>
@@ -68,7 +69,7 @@ VirtualDisplay::~VirtualDisplay() {
 }
 
 Screen VirtualDisplay::capture() const {
-  // The server's file is an XWD: a header, a color map of 12-byte entries, rows of BGRX.
+  // The server's file is an XWD: a header, a color map of 12-byte entries, rows of BGRX, X being 0.
   const std::string bytes = read_file(folder_.path() / "Xvfb_screen0");
   const size_t header_bytes = header_word(bytes, 0);
   const size_t row_bytes = header_word(bytes, 12);
@@ -76,13 +77,11 @@ Screen VirtualDisplay::capture() const {
   Screen screen;
   screen.width = static_cast<int>(header_word(bytes, 4));
   screen.height = static_cast<int>(header_word(bytes, 5));
+  screen.pixels.resize(static_cast<size_t>(screen.width) * screen.height);
   for (int y = 0; y < screen.height; ++y) {
-    size_t at = header_bytes + 12 * color_count + y * row_bytes;
-    for (int x = 0; x < screen.width; ++x, at += 4) {
-      screen.pixels.push_back({static_cast<uint8_t>(bytes[at + 2]),
-                               static_cast<uint8_t>(bytes[at + 1]),
-                               static_cast<uint8_t>(bytes[at])});
-    }
+    std::memcpy(&screen.pixels[static_cast<size_t>(y) * screen.width],
+                &bytes[header_bytes + 12 * color_count + y * row_bytes],
+                screen.width * sizeof(uint32_t));
   }
   return screen;
 }

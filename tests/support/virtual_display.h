@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -18,11 +17,9 @@ namespace tests {
 struct Screen {
   int width = 0;
   int height = 0;
-  std::vector<std::array<uint8_t, 3>> pixels;
+  std::vector<uint32_t> pixels;  // 0xRRGGBB
 
-  const std::array<uint8_t, 3>& at(int x, int y) const {
-    return pixels[static_cast<size_t>(y) * width + x];
-  }
+  uint32_t at(int x, int y) const { return pixels[static_cast<size_t>(y) * width + x]; }
 };
 
 /// The path of a program of that name; empty when there is none.

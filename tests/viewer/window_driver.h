@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -27,6 +28,8 @@ struct Rectangle {
 /// Runs the real program in a window of its own display, moves the real mouse, looks at pixels.
 class WindowTest : public testing::Test {
  protected:
+  static constexpr int width_px = 760, height_px = 800;  // of the window
+
   void SetUp() override {
     if (find_program("Xvfb").empty()) GTEST_SKIP() << "Xvfb is not installed";
     if (find_program("xdotool").empty()) GTEST_SKIP() << "xdotool is not installed";
@@ -35,8 +38,9 @@ class WindowTest : public testing::Test {
     setenv("BOXWOOD_UI_LAYOUT", (folder_ / "layout.json").c_str(), 1);
   }
 
+  /// Opens a window smaller than the screen, so that pictures are soon traced under sanitizers.
   void start(const std::vector<std::string>& arguments) {
-    std::vector<std::string> all{"view"};
+    std::vector<std::string> all{"view", "--size", fmt::format("{}x{}", width_px, height_px)};
     all.insert(all.end(), arguments.begin(), arguments.end());
     program_ =
         std::make_unique<ChildProgram>(BOXWOOD_PROGRAM, all, ErrorStream::pipe, folder_.path());
@@ -44,11 +48,13 @@ class WindowTest : public testing::Test {
 
   /// Waits, generously for sanitizers, and a moment between two looks.
   static testing::AssertionResult wait_until(const std::function<bool()>& is_reached) {
-    for (int look = 0; look < 600; ++look) {
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::minutes(2);
+    while (Clock::now() < end) {
       if (is_reached()) return testing::AssertionSuccess();
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
-    return testing::AssertionFailure() << "not reached within a minute";
+    return testing::AssertionFailure() << "not reached within two minutes";
   }
 
   std::optional<Rectangle> find_widget(const std::string& name) const {
@@ -92,30 +98,30 @@ class WindowTest : public testing::Test {
   }
 
   /// Pixels of a widget as they are on the screen.
-  std::vector<std::array<uint8_t, 3>> look_at(const Rectangle& area) const {
+  std::vector<uint32_t> look_at(const Rectangle& area) const {
     const Screen screen = display_->capture();
-    std::vector<std::array<uint8_t, 3>> pixels;
+    std::vector<uint32_t> pixels;
     for (int y = area.y0; y < std::min(area.y1, screen.height); ++y) {
-      for (int x = area.x0; x < std::min(area.x1, screen.width); ++x) {
-        pixels.push_back(screen.at(x, y));
-      }
+      const auto row = screen.pixels.begin() + static_cast<ptrdiff_t>(y) * screen.width;
+      pixels.insert(pixels.end(), row + area.x0, row + std::min(area.x1, screen.width));
     }
     return pixels;
   }
-  std::vector<std::array<uint8_t, 3>> look_at(const std::string& name) const {
+  std::vector<uint32_t> look_at(const std::string& name) const {
     const auto area = find_widget(name);
-    return area ? look_at(*area) : std::vector<std::array<uint8_t, 3>>();
+    return area ? look_at(*area) : std::vector<uint32_t>();
   }
 
   /// Waits until the picture and the panel have stood still for most of a second.
   testing::AssertionResult wait_until_settled() const {
-    auto before = look_at(Rectangle{0, 0, 1280, 800});
-    int still_looks = 0;
+    using Clock = std::chrono::steady_clock;
+    auto before = display_->capture().pixels;
+    auto still_since = Clock::now();
     return wait_until([&] {
-      auto now = look_at(Rectangle{0, 0, 1280, 800});
-      still_looks = now == before ? still_looks + 1 : 0;
+      auto now = display_->capture().pixels;
+      if (now != before) still_since = Clock::now();
       before = std::move(now);
-      return still_looks >= 8;
+      return Clock::now() - still_since > std::chrono::milliseconds(800);
     });
   }
 
