@@ -9,13 +9,14 @@ namespace tracer {
 /// Halves the node's box across its longest side; primitives go left or right by their centre.
 /// Where all go to one side, halves the bounds of the centres instead, and where the centres
 /// coincide, the primitives by number. [Assignment 2006] 3.2 e
-BvhTree build_median(std::span<const Box> boxes, const BuildSettings& settings, Progress& progress);
+BvhTree build_median(const Primitives& primitives, const BuildSettings& settings,
+                     Progress& progress);
 
 /// Tries every plane between two centres on all three axes and takes the one of least surface area
 /// cost, the most even of equals; presorted, so O(n log n). [Wald 2007] Nodes above the leaf size
 /// are always split while the depth allows. Where the levels left would otherwise not reach the
 /// leaf size, only planes that keep it in reach are tried.
-BvhTree build_sweep_sah(std::span<const Box> boxes, const BuildSettings& settings,
+BvhTree build_sweep_sah(const Primitives& primitives, const BuildSettings& settings,
                         Progress& progress);
 
 }  // namespace tracer

@@ -32,7 +32,7 @@ class MedianSplitter {
     return middle;
   }
 
-  std::vector<uint32_t> order() const {
+  std::vector<uint32_t> take_order() const {
     std::vector<uint32_t> primitives(references_.size());
     for (size_t i = 0; i < primitives.size(); ++i) primitives[i] = references_[i].primitive;
     return primitives;
@@ -67,14 +67,11 @@ class MedianSplitter {
 
 }  // namespace
 
-BvhTree build_median(std::span<const Box> boxes, const BuildSettings& settings,
+BvhTree build_median(const Primitives& primitives, const BuildSettings& settings,
                      Progress& progress) {
-  MedianSplitter splitter(boxes, progress);
-  Subdivision subdivision(splitter, static_cast<uint32_t>(boxes.size()), settings, progress);
-  BvhTree tree;
-  tree.nodes = subdivision.nodes();
-  tree.primitives = splitter.order();
-  return tree;
+  MedianSplitter splitter(primitives.boxes, progress);
+  const auto count = static_cast<uint32_t>(primitives.boxes.size());
+  return Subdivision(splitter, count, settings, progress).build();
 }
 
 }  // namespace tracer

@@ -38,7 +38,10 @@ void for_each_position(PrimitiveRange range, const Progress& progress, F&& f) {
 ///   Box bounds(PrimitiveRange);
 ///   uint32_t split(PrimitiveRange, const Box& bounds, int levels_left);
 ///       reorders the range of two or more and returns the first position of the right child, with
-///       at least one primitive on either side; levels_left >= 1 are allowed below the range.
+///       at least one primitive on either side; levels_left >= 1 are allowed below the range;
+/// and once all is split:
+///   std::vector<uint32_t> take_order();
+///       the primitive at each position.
 template <class Splitter>
 class Subdivision {
  public:
@@ -50,10 +53,11 @@ class Subdivision {
         max_depth_(std::min(settings.max_depth, max_tree_depth)),
         progress_(progress) {}
 
-  /// Nodes as BvhTree wants them; leaves hold positions.
-  std::vector<BvhNode> nodes() {
-    if (primitive_count_ == 0) return {};
-    return subtree({0, primitive_count_}, 0);
+  BvhTree build() {
+    BvhTree tree;
+    if (primitive_count_ > 0) tree.nodes = subtree({0, primitive_count_}, 0);
+    tree.primitives = splitter_.take_order();
+    return tree;
   }
 
  private:

@@ -135,14 +135,11 @@ class SweepSplitter {
 
 }  // namespace
 
-BvhTree build_sweep_sah(std::span<const Box> boxes, const BuildSettings& settings,
+BvhTree build_sweep_sah(const Primitives& primitives, const BuildSettings& settings,
                         Progress& progress) {
-  SweepSplitter splitter(boxes, std::max(settings.leaf_size, 1), progress);
-  Subdivision subdivision(splitter, static_cast<uint32_t>(boxes.size()), settings, progress);
-  BvhTree tree;
-  tree.nodes = subdivision.nodes();
-  tree.primitives = splitter.take_order();
-  return tree;
+  SweepSplitter splitter(primitives.boxes, std::max(settings.leaf_size, 1), progress);
+  const auto count = static_cast<uint32_t>(primitives.boxes.size());
+  return Subdivision(splitter, count, settings, progress).build();
 }
 
 }  // namespace tracer
