@@ -30,6 +30,10 @@ int run_view(const std::vector<std::string>& arguments) {
            [&](const auto& path) { options.view_file = path; });
   add_value(app, "--size", "WxH", "of the window in pixels",
             [&](const std::string& text) { options.size_px = parse_size_px(text); });
+  add_value(app, "--spp", "N", "samples a pixel at most, to begin with [1024]",
+            [&](const std::string& text) {
+              options.sample_limit = parse_whole_number(text, 1, 1000000);
+            });
   add_value(app, "--threads", "N", "threads to work on [all]", [&](const std::string& text) {
     options.thread_count = parse_whole_number(text, 1, max_threads);
   });

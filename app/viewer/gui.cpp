@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/viewer/gui.h"
 
+#include <algorithm>
+
 #include <GL/gl.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -41,10 +43,24 @@ void Gui::follow_scale() {
   ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
-void Gui::begin_frame() {
+void Gui::follow_mouse(std::span<const InputEvent> input) {
+  using Kind = InputEvent::Kind;
+  ImGuiIO& io = ImGui::GetIO();
+  for (const InputEvent& event : input) {
+    const auto button = static_cast<size_t>(event.code);
+    if (event.kind == Kind::key_press || event.kind == Kind::scroll) continue;
+    io.MousePos = {static_cast<float>(event.cursor.x), static_cast<float>(event.cursor.y)};
+    if (event.kind == Kind::cursor || button >= is_button_down_.size()) continue;
+    is_button_down_[button] = event.kind == Kind::button_press;
+  }
+  std::ranges::copy(is_button_down_, io.MouseDown);
+}
+
+void Gui::begin_frame(std::span<const InputEvent> input) {
   follow_scale();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  follow_mouse(input);
   ImGui::NewFrame();
 }
 

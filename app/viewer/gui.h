@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <span>
+
 #include "app/viewer/style.h"
 #include "app/viewer/window.h"
 
@@ -15,8 +18,10 @@ class Gui {
   Gui(const Gui&) = delete;
   Gui& operator=(const Gui&) = delete;
 
-  /// Follows the display's scale, which may have changed.
-  void begin_frame();
+  /// Follows the display's scale, which may have changed. Widgets see the mouse as it was at the
+  /// end of `input`: Dear ImGui 1.86 looks at where it is now, and would lose a click in a slow
+  /// frame.
+  void begin_frame(std::span<const InputEvent> input);
   /// Draws the frame over a cleared framebuffer; the caller swaps.
   void render();
 
@@ -28,11 +33,13 @@ class Gui {
 
  private:
   void follow_scale();
+  void follow_mouse(std::span<const InputEvent> input);
 
   const Window& window_;
   Fonts fonts_;
   double ui_scale_ = 0;
   double pixel_ratio_ = 0;
+  std::array<bool, 3> is_button_down_{};
 };
 
 }  // namespace app

@@ -45,6 +45,7 @@ Viewer::Viewer(const ViewOptions& options)
         has_news_ = true;
         Window::wake();
       }) {
+  if (options.sample_limit > 0) settings_.sample_limit = options.sample_limit;
   if (options.frames > 0) settings_.sample_limit = options.frames;
 }
 
@@ -118,18 +119,18 @@ void Viewer::draw_frame() {
     return;
   }
   // The scale is known from here on, and with it the picture's aspect, which frames a new model.
-  gui_.begin_frame();
+  const std::vector<InputEvent> input = window_.take_input();
+  gui_.begin_frame(input);
   lay_out();
   take_update();
   const bool is_last = options_.frames > 0 && has_finished_picture();
-  handle_input();
+  handle_input(input);
   const Ui ui{layout_, gui_.fonts(), gui_.scale()};
   draw_panel(ui);
   draw_overlays(ui);
   send_edits();
   draw_picture();
   gui_.render();
-  layout_.finish_frame();
   ++frames_drawn_;
   if (is_last && frames_drawn_ > frames_to_settle) {
     if (options_.screenshot) {
@@ -139,6 +140,7 @@ void Viewer::draw_frame() {
   }
   if (is_last) frames_due_ = 1;
   window_.swap();
+  layout_.finish_frame();  // it tells of what is on the screen
 }
 
 }  // namespace app

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "app/session.h"
@@ -47,7 +48,7 @@ class Viewer {
   void send_edits();
 
   // What the user does. viewer_input.cpp
-  void handle_input();
+  void handle_input(std::span<const InputEvent> input);
   void handle_key(const InputEvent& event);
   void execute(Command command);
   void escape();

@@ -41,6 +41,10 @@ void Viewer::draw_picture() {
   const tracer::Vec2f max = min + tracer::Vec2f(area_.size);
   const auto id = reinterpret_cast<ImTextureID>(static_cast<uintptr_t>(texture_.name()));
   ImGui::GetBackgroundDrawList()->AddImage(id, ImVec2(min.x, min.y), ImVec2(max.x, max.y));
+  if (has_finished_picture()) {
+    layout_.note("finished picture", tracer::Vec2f(area_.min),
+                 tracer::Vec2f(area_.min + area_.size));
+  }
 }
 
 void Viewer::draw_header(const Ui& ui) {

@@ -22,11 +22,11 @@ std::filesystem::path working_folder() {
 
 }  // namespace
 
-void Viewer::handle_input() {
+void Viewer::handle_input(std::span<const InputEvent> input) {
   const bool is_over_gui = ImGui::GetIO().WantCaptureMouse;
   // The dialog's own text field counts as the dialog, also in the frame that closes it.
   is_typing_ = ImGui::GetIO().WantTextInput && !open_dialog_.is_open();
-  for (const InputEvent& event : window_.take_input()) {
+  for (const InputEvent& event : input) {
     using Kind = InputEvent::Kind;
     if (event.kind == Kind::key_press) {
       handle_key(event);

@@ -74,7 +74,6 @@ std::optional<tracer::View> Viewer::find_view() {
 
 void Viewer::adopt_model() {
   const tracer::ImportedScene& model = *status_.model;
-  lay_out();  // the aspect may not be known yet
   if (status_.model_path == adopted_path_) {
     viewpoint_.reload(*model.scene.mesh);
   } else {

@@ -63,10 +63,10 @@ Window& Window::of(GLFWwindow* window) {
   return *static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
 
-void Window::add(const InputEvent& event) {
-  input_.push_back(event);
-  glfwGetCursorPos(window_, &input_.back().cursor.x, &input_.back().cursor.y);
+void Window::add(InputEvent event) {
   is_active_ = true;
+  event.cursor = cursor_;
+  input_.push_back(event);
 }
 
 void Window::install_callbacks() {
@@ -82,8 +82,8 @@ void Window::install_callbacks() {
         of(window).add({kind, button, modifiers, {}, {}});
       });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+    of(window).cursor_ = {x, y};
     of(window).add({Kind::cursor, 0, 0, {}, {}});
-    of(window).input_.back().cursor = {x, y};
   });
   glfwSetScrollCallback(window_, [](GLFWwindow* window, double x, double y) {
     of(window).add({Kind::scroll, 0, 0, {}, {x, y}});
@@ -174,7 +174,16 @@ bool Window::take_activity() {
 }
 
 std::vector<InputEvent> Window::take_input() {
-  return std::exchange(input_, {});
+  const auto is_button = [](const InputEvent& event) {
+    return event.kind == InputEvent::Kind::button_press ||
+           event.kind == InputEvent::Kind::button_release;
+  };
+  auto end = std::ranges::find_if(input_, is_button);
+  if (end != input_.end()) ++end;
+  std::vector<InputEvent> taken(input_.begin(), end);
+  input_.erase(input_.begin(), end);
+  if (!input_.empty()) is_active_ = true;
+  return taken;
 }
 
 std::vector<std::filesystem::path> Window::take_drops() {

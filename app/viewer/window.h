@@ -59,16 +59,19 @@ class Window {
 
   /// Whether anything happened that may change what is shown, since the last call.
   bool take_activity();
+  /// Up to the next press or release of a button, so that a frame sees the cursor where it was
+  /// then, however long frames take. What is left counts as activity.
   std::vector<InputEvent> take_input();
   std::vector<std::filesystem::path> take_drops();
 
  private:
   static Window& of(GLFWwindow* window);
-  void add(const InputEvent& event);
+  void add(InputEvent event);
   void install_callbacks();
 
   GLFWwindow* window_ = nullptr;
   bool is_active_ = true;
+  tracer::Vec2d cursor_{-1, -1};
   std::vector<InputEvent> input_;
   std::vector<std::filesystem::path> drops_;
   tracer::Vec2i windowed_position_{0, 0};  // while full screen

@@ -112,14 +112,14 @@ class WindowTest : public testing::Test {
     return area ? look_at(*area) : std::vector<uint32_t>();
   }
 
-  /// Waits until the picture and the panel have stood still for most of a second.
+  /// Waits until the picture is done, and it and the panel have stood still for most of a second.
   testing::AssertionResult wait_until_settled() const {
     using Clock = std::chrono::steady_clock;
     auto before = display_->capture().pixels;
     auto still_since = Clock::now();
     return wait_until([&] {
       auto now = display_->capture().pixels;
-      if (now != before) still_since = Clock::now();
+      if (now != before || !find_widget("finished picture")) still_since = Clock::now();
       before = std::move(now);
       return Clock::now() - still_since > std::chrono::milliseconds(800);
     });
