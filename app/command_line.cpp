@@ -23,7 +23,7 @@ constexpr const char* help_text =
 
   boxwood [view] [MODEL.obj]                  open the window
   boxwood render MODEL.obj -o PICTURE.png     render to a .png, .exr or .pfm
-  boxwood info MODEL.obj [--json]             what is in the file
+  boxwood info MODEL.obj [options]            what is in the file, how good its trees are
   boxwood COMMAND --help                      all options of a command
   boxwood --version
 

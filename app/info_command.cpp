@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/exit_code.h"
+#include "app/info_trees.h"
 #include "app/print_warnings.h"
 #include "tracer/scene/import_obj.h"
 
@@ -108,6 +109,7 @@ void print_table(const Json& info) {
   print_materials(info["materials"]);
   print_row("faces left out", info["dropped_faces"].dump());
   print_row("warnings", info["warnings"]["count"].dump());
+  print_trees(info["trees"]);
 }
 
 }  // namespace
@@ -115,7 +117,8 @@ void print_table(const Json& info) {
 int info_command(const InfoOptions& options) {
   tracer::Progress progress;
   const tracer::ImportedScene imported = tracer::import_obj(options.model, progress);
-  const Json info = describe(options.model, imported);
+  Json info = describe(options.model, imported);
+  info["trees"] = describe_trees(imported.scene.mesh, options.builders, options.build);
   if (options.format == InfoOptions::Format::json) {
     // A name in the file need not be UTF-8; what is not is replaced.
     fmt::print("{}\n", info.dump(2, ' ', false, Json::error_handler_t::replace));

@@ -97,6 +97,13 @@ class RenderJob {
                                {options_.builder, options_.layout, options_.build}, progress_);
     report_.seconds.build = build_start.seconds();
     report_.tree = measure(*world_.accel);
+    if (options_.stats_file && world_.accel->tree) measure_quality();
+  }
+
+  void measure_quality() {
+    progress_.start_stage("measuring the tree");
+    report_.tree_quality = tracer::measure_quality(*world_.accel->tree, *imported_.scene.mesh,
+                                                   report_.tree.costs, progress_);
   }
 
   void print_loading_warnings() {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/tree_report.h"
 #include "tracer/base/error.h"
 
 namespace app {
@@ -46,29 +47,25 @@ Json used_settings(const RenderOptions& options, const RenderReport& report) {
 
 Json stats(const RenderOptions& options, const tracer::ImportedScene& imported,
            const RenderReport& report) {
-  return {{"program", "boxwood " BOXWOOD_VERSION},
-          {"model", options.model.filename().string()},
-          {"triangles", imported.scene.mesh->triangle_count()},
-          {"vertices", imported.scene.mesh->positions.size()},
-          {"nodes", report.tree.node_count},
-          {"leaves", report.tree.leaf_count},
-          {"depth", report.tree.depth},
-          {"largest_leaf", report.tree.largest_leaf},
-          {"sah_cost", report.tree.sah_cost},
-          {"tree_bytes", report.tree.bytes},
-          {"seconds",
-           {{"load", report.seconds.load},
-            {"build", report.seconds.build},
-            {"render", report.seconds.render},
-            {"write", report.seconds.write}}},
-          {"rays", report.passes.rays},
-          {"rays_per_second", rays_per_second(report)},
-          {"samples_per_pixel", report.whole_sample_count},
-          {"samples", report.passes.samples},
-          {"dropped_samples", report.passes.dropped},
-          {"dropped_faces", imported.dropped_faces},
-          {"warnings", imported.warnings.count()},
-          {"settings", used_settings(options, report)}};
+  Json stats = {{"program", "boxwood " BOXWOOD_VERSION},
+                {"model", options.model.filename().string()},
+                {"triangles", imported.scene.mesh->triangle_count()},
+                {"vertices", imported.scene.mesh->positions.size()}};
+  add_tree(stats, report.tree, report.tree_quality);
+  stats.update({{"seconds",
+                 {{"load", report.seconds.load},
+                  {"build", report.seconds.build},
+                  {"render", report.seconds.render},
+                  {"write", report.seconds.write}}},
+                {"rays", report.passes.rays},
+                {"rays_per_second", rays_per_second(report)},
+                {"samples_per_pixel", report.whole_sample_count},
+                {"samples", report.passes.samples},
+                {"dropped_samples", report.passes.dropped},
+                {"dropped_faces", imported.dropped_faces},
+                {"warnings", imported.warnings.count()},
+                {"settings", used_settings(options, report)}});
+  return stats;
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "app/render_command.h"
 #include "app/render_view.h"
-#include "tracer/bvh/metrics.h"
+#include "tracer/bvh/quality.h"
 #include "tracer/render/render.h"
 #include "tracer/scene/import_obj.h"
 
@@ -22,9 +22,10 @@ struct StageSeconds {
 
 struct RenderReport {
   ResolvedView view;
-  tracer::TreeMetrics tree;         // node_count 0 without one
-  tracer::PassStats passes;         // of all passes together
-  uint32_t whole_sample_count = 0;  // samples that every pixel has
+  tracer::TreeMetrics tree;          // node_count 0 without one
+  tracer::TreeQuality tree_quality;  // measured where a stats file is asked for
+  tracer::PassStats passes;          // of all passes together
+  uint32_t whole_sample_count = 0;   // samples that every pixel has
   StageSeconds seconds;
 };
 

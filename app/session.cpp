@@ -12,6 +12,7 @@
 
 #include "app/session_changes.h"
 #include "app/session_jobs.h"
+#include "app/session_quality.h"
 #include "app/session_renderer.h"
 
 namespace app {
@@ -46,6 +47,8 @@ struct Session::State {
   void end_job();
   void set_error(std::string text);
 
+  void use_tree(BuiltTree built);
+
   bool wants_shading() const;
   bool wants_tree() const;
   bool is_edited_model() const { return model && edits.model_generation == model->generation; }
@@ -57,6 +60,7 @@ struct Session::State {
   std::function<void()> wake;
   std::atomic<bool> has_news{false};
   SessionRenderer renderer;
+  QualityMeter quality_meter;
 
   std::mutex mutex;
   std::condition_variable changed;
@@ -78,6 +82,7 @@ struct Session::State {
 Session::State::State(std::function<void()> wake_function)
     : wake(std::move(wake_function)),
       renderer([this] { post_news(); }),
+      quality_meter([this] { post_news(); }),
       job_thread([this] { run_jobs(); }) {}
 
 Session::State::~State() {
@@ -165,7 +170,7 @@ void Session::State::load(std::unique_lock<std::mutex>& lock) {
   if (loaded && !progress->stop_requested()) {
     model = std::move(loaded);
     model->generation = ++generation;
-    tree = std::move(built);
+    use_tree(std::move(built));
     off_tree.reset();
     declined.reset();
   }
@@ -209,10 +214,15 @@ void Session::State::build(std::unique_lock<std::mutex>& lock) {
   if (built) {
     off_tree.reset();
     if (key.builder == nullptr) off_tree = std::move(tree);
-    tree = std::move(*built);
+    use_tree(std::move(*built));
     if (is_edited_model()) renderer.resume_with(make_world());
   }
   end_job();
+}
+
+void Session::State::use_tree(BuiltTree built) {
+  tree = std::move(built);
+  quality_meter.set_accel(tree.accel);
 }
 
 std::shared_ptr<const tracer::World> Session::State::make_world() const {
@@ -249,6 +259,7 @@ Status Session::State::status() {
     status.load_seconds = model->seconds;
   }
   status.tree = tree.metrics;
+  status.tree_quality = quality_meter.quality();
   status.build_seconds = tree.seconds;
   status.mrays_per_second = render.rates.recent_mrays_per_second();
   status.mrays_per_second_bvh = render.rates.mrays_per_second(TraceMode::bvh);
@@ -285,8 +296,11 @@ void Session::set(const Edits& edits) {
     const std::lock_guard lock(state_->mutex);
     const Edits before = std::exchange(state_->edits, edits);
     state_->renderer.set_sample_limit(edits.sample_limit);
-    if (is_new_tree(before, edits)) state_->declined.reset();
-    if (is_new_picture(before, edits) && state_->is_edited_model()) state_->restart_picture();
+    const bool needs_tree = is_new_tree(before, edits);
+    const bool needs_picture = is_new_picture(before, edits);
+    if (needs_tree || needs_picture) state_->quality_meter.postpone();
+    if (needs_tree) state_->declined.reset();
+    if (needs_picture && state_->is_edited_model()) state_->restart_picture();
     const Job& job = state_->job;
     if (job.kind == JobKind::build && !is_same_tree(job.key, tree_key_of(edits))) {
       job.progress->request_stop();

@@ -6,12 +6,13 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/session_tiles.h"
 #include "tracer/bvh/build.h"
-#include "tracer/bvh/metrics.h"
+#include "tracer/bvh/quality.h"
 #include "tracer/render/render.h"
 #include "tracer/scene/import_obj.h"
 
@@ -49,6 +50,7 @@ struct Status {
   uint64_t model_generation = 0;  // grows with every model that replaces another
   std::shared_ptr<const tracer::ImportedScene> model;
   tracer::TreeMetrics tree;  // of the tree in use; nodes 0 when the BVH is off
+  std::optional<tracer::TreeQuality> tree_quality;  // of the same tree, when it is known
   double load_seconds = 0;
   double build_seconds = 0;
   double mrays_per_second = 0;              // of the last second of tracing

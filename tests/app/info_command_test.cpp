@@ -6,6 +6,7 @@
 
 #include "tests/support/cube_obj.h"
 #include "tests/support/run_program.h"
+#include "tracer/bvh/build.h"
 
 namespace tests {
 namespace {
@@ -70,6 +71,62 @@ TEST_F(InfoCommand, faults_are_counted_and_named_by_line) {
   EXPECT_EQ(info["warnings"]["count"], 1);
   EXPECT_NE(info["warnings"]["messages"][0].get<std::string>().find("model.obj:5: "),
             std::string::npos);
+}
+
+TEST_F(InfoCommand, measures_the_tree_of_the_default_builder) {
+  const Json trees = info_of(cube_obj)["trees"];
+  ASSERT_EQ(trees.size(), 1u);
+  const Json& tree = trees[0];
+  EXPECT_EQ(tree["builder"], tracer::builders().front().name);
+  EXPECT_EQ(tree["nodes"].get<int>(), 2 * tree["leaves"].get<int>() - 1);
+  EXPECT_GE(tree["references"], 12);
+  EXPECT_EQ(tree["leaves_at_depth"].size(), tree["depth"].get<size_t>() + 1);
+  EXPECT_GT(tree["sah_cost"], 1);
+  EXPECT_EQ(tree["sah_traversal_cost"], 1);
+  EXPECT_EQ(tree["epo_sampled_triangles"], 0);
+  EXPECT_GE(tree["epo"], 0);
+  EXPECT_GT(tree["lcv"], 0);
+  EXPECT_GT(tree["mrays_per_second"], 0);
+}
+
+TEST_F(InfoCommand, compares_all_builders_one_or_none) {
+  write_file(model_, cube_obj);
+  const auto trees_of = [&](const std::string& name) {
+    const ProgramResult result = run_boxwood({"info", model_, "--json", "--bvh", name});
+    return Json::parse(result.out)["trees"];
+  };
+  EXPECT_EQ(trees_of("off"), Json::array());
+  EXPECT_EQ(trees_of("all").size(), tracer::builders().size());
+  for (const tracer::Builder& builder : tracer::builders()) {
+    const Json trees = trees_of(std::string(builder.name));
+    ASSERT_EQ(trees.size(), 1u);
+    EXPECT_EQ(trees[0]["builder"], builder.name);
+  }
+  const ProgramResult table = run_boxwood({"info", model_, "--bvh", "all"});
+  for (const tracer::Builder& builder : tracer::builders()) {
+    EXPECT_NE(table.out.find(' ' + std::string(builder.name)), std::string::npos) << table.out;
+  }
+  const ProgramResult refused = run_boxwood({"info", model_, "--bvh", "oak"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("'oak' is none of"), std::string::npos) << refused.err;
+}
+
+TEST_F(InfoCommand, trees_obey_the_settings) {
+  write_file(model_, cube_obj);
+  const ProgramResult result = run_boxwood({"info", model_, "--json", "--leaf-size", "12"});
+  const Json tree = Json::parse(result.out)["trees"][0];
+  EXPECT_EQ(tree["nodes"], 1);
+  EXPECT_EQ(tree["largest_leaf"], 12);
+  EXPECT_EQ(tree["epo"], 0);
+  EXPECT_EQ(tree["lcv"], 0);
+}
+
+TEST_F(InfoCommand, a_model_without_area_has_finite_numbers) {
+  const Json tree = info_of("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")["trees"][0];
+  EXPECT_TRUE(tree["sah_cost"].is_number());
+  EXPECT_EQ(tree["epo"], 0);
+  EXPECT_EQ(tree["lcv"], 0);
+  EXPECT_EQ(tree["mrays_per_second"], 0);
 }
 
 TEST_F(InfoCommand, the_table_says_the_same_and_warnings_go_to_stderr) {

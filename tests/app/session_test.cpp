@@ -292,8 +292,48 @@ TEST_F(SessionTest, work_in_flight_ends_soon_after_the_camera_moves) {
   EXPECT_LT(slowest, 1.0);  // sanitizers and busy machines; some 5 ms where nothing else runs
 }
 
+TEST_F(SessionTest, the_tree_in_use_is_measured_once_its_picture_is_left_alone) {
+  ASSERT_TRUE(show(ball("ball.obj", 24)));
+  ASSERT_TRUE(wait_until([this] { return status_.tree_quality.has_value(); }));
+  const double first = status_.tree_quality->epo.value;
+  EXPECT_GT(first, 0);
+  EXPECT_GT(status_.tree_quality->lcv.value, 0);
+  edits_.build.leaf_size = 16;
+  session_->set(edits_);
+  ASSERT_TRUE(wait_until([&] {
+    return status_.tree_quality.has_value() && status_.tree_quality->epo.value != first;
+  }));
+  edits_.builder = nullptr;
+  session_->set(edits_);
+  ASSERT_TRUE(wait_until([this] { return status_.tree.node_count == 0; }));
+  EXPECT_FALSE(status_.tree_quality.has_value());
+}
+
+TEST_F(SessionTest, the_tree_is_not_measured_while_the_user_is_at_work) {
+  ASSERT_TRUE(show(ball("ball.obj", 24)));
+  edits_.build.leaf_size = 2;
+  session_->set(edits_);
+  const auto start = Clock::now();
+  auto last_edit = start;
+  double longest_rest = 0;
+  bool was_measured = false;
+  while (seconds_since(start) < 1) {
+    longest_rest = std::max(longest_rest, seconds_since(last_edit));
+    last_edit = Clock::now();
+    edits_.camera.eye *= 1.001;
+    session_->set(edits_);
+    poll();
+    was_measured |= status_.tree.largest_leaf == 2 && status_.tree_quality.has_value();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  // A busy machine may keep this thread from working, as a user never does.
+  EXPECT_TRUE(!was_measured || longest_rest > 0.2);
+  ASSERT_TRUE(wait_until([this] { return status_.tree_quality.has_value(); }));
+}
+
 TEST_F(SessionTest, a_finished_picture_uses_no_cpu) {
   ASSERT_TRUE(show(ball("ball.obj", 24)));
+  ASSERT_TRUE(wait_until([this] { return status_.tree_quality.has_value(); }));
   std::this_thread::sleep_for(std::chrono::milliseconds(200));  // oneTBB's workers go to sleep
   const double before = cpu_seconds();
   std::this_thread::sleep_for(std::chrono::milliseconds(500));

@@ -2,6 +2,7 @@
 #include "tracer/base/parallel.h"
 
 #include <atomic>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -56,6 +57,20 @@ TEST(Progress, tells_the_other_side_where_it_is_and_when_to_stop) {
   progress.request_stop();
   EXPECT_TRUE(progress.stop_requested());
   EXPECT_THROW(progress.throw_if_stopped(), Cancelled);
+}
+
+TEST(Parallel, work_on_one_thread_stays_on_the_caller) {
+  const auto caller = std::this_thread::get_id();
+  std::atomic<int> elsewhere{0};
+  std::atomic<int> done{0};
+  on_one_thread([&] {
+    parallel_for_each_index(0, 1000, [&](size_t) {
+      ++done;
+      if (std::this_thread::get_id() != caller) ++elsewhere;
+    });
+  });
+  EXPECT_EQ(done, 1000);
+  EXPECT_EQ(elsewhere, 0);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tracer/bvh/tree.h"
 
+#include <numeric>
+
 #include <gtest/gtest.h>
 
 #include "tracer/bvh/build.h"
@@ -88,6 +90,54 @@ TEST(Metrics, of_four_cubes_in_a_diagonal_are_those_counted_by_hand) {
   // Half areas: root 48, its children 12 each, leaves 3 each.
   EXPECT_DOUBLE_EQ(metrics.sah_cost, (48 + 2 * 12 + 4 * 3) / 48.0);
   EXPECT_EQ(metrics.bytes, 7 * 32 + 4 * 4u);
+}
+
+TEST(Metrics, sah_cost_is_linear_in_its_constants) {
+  // Half areas: root 48, its children 12 each, leaves 3 each.
+  const TreeMetrics metrics = measure(tree_of_four(), {.traversal = 2, .intersection = 5});
+  EXPECT_DOUBLE_EQ(metrics.sah_cost, (2 * (48 + 2 * 12) + 5 * 4 * 3) / 48.0);
+  EXPECT_EQ(metrics.costs.traversal, 2);
+  EXPECT_EQ(metrics.costs.intersection, 5);
+}
+
+TEST(Metrics, histograms_count_every_leaf_once) {
+  for (const Builder& builder : builders()) {
+    for (const int max_depth : {1, 4, 30}) {
+      std::vector<Box> boxes;
+      for (int i = 0; i < 300; ++i) boxes.push_back({Vec3f(i * i), Vec3f(i * i + 1)});
+      Progress progress;
+      const TreeMetrics metrics =
+          measure(builder.build(boxes, {.max_depth = max_depth, .leaf_size = 3}, progress));
+      ASSERT_EQ(metrics.leaves_at_depth.size(), static_cast<size_t>(metrics.depth) + 1);
+      ASSERT_EQ(metrics.leaves_of_size.size(),
+                std::min(metrics.largest_leaf, largest_told_leaf) + 1);
+      const auto sum = [](const std::vector<uint32_t>& counts) {
+        return std::accumulate(counts.begin(), counts.end(), 0u);
+      };
+      EXPECT_EQ(sum(metrics.leaves_at_depth), metrics.leaf_count);
+      EXPECT_EQ(sum(metrics.leaves_of_size), metrics.leaf_count);
+      EXPECT_EQ(metrics.leaves_of_size[0], 0u);
+      EXPECT_EQ(metrics.reference_count, boxes.size());
+    }
+  }
+}
+
+TEST(Metrics, histograms_of_four_cubes_are_those_counted_by_hand) {
+  const TreeMetrics metrics = measure(tree_of_four());
+  EXPECT_EQ(metrics.leaves_at_depth, (std::vector<uint32_t>{0, 0, 4}));
+  EXPECT_EQ(metrics.leaves_of_size, (std::vector<uint32_t>{0, 4}));
+}
+
+TEST(Metrics, a_primitive_in_two_leaves_counts_in_both) {
+  BvhTree tree;
+  tree.nodes = {{{Vec3f(0), Vec3f(2, 1, 1)}, 1, 0},
+                {{Vec3f(0), Vec3f(1)}, 0, 1},
+                {{Vec3f(1, 0, 0), Vec3f(2, 1, 1)}, 1, 2}};
+  tree.primitives = {0, 0, 1};
+  const TreeMetrics metrics = measure(tree);
+  EXPECT_EQ(metrics.reference_count, 3u);
+  EXPECT_DOUBLE_EQ(metrics.sah_cost, (5 + 3 + 2 * 3) / 5.0);
+  EXPECT_EQ(metrics.bytes, 3 * 32 + 3 * 4u);
 }
 
 TEST(Metrics, of_no_tree_are_zero) {

@@ -88,6 +88,14 @@ void parallel_invoke(F&& f, G&& g) {
   oneapi::tbb::parallel_invoke([&] { fork_join.run_task(f); }, [&] { fork_join.run_task(g); });
 }
 
+/// Runs f() and all parallel work below it on the calling thread, and limits no other.
+template <class F>
+void on_one_thread(F&& f) {
+  oneapi::tbb::task_arena arena(1);
+  parallel_detail::ForkJoin fork_join;
+  arena.execute([&] { fork_join.run_task(f); });
+}
+
 /// Runs f() and all parallel work below it on exactly `thread_count` threads, which may be more
 /// than there are cores.
 template <class F>

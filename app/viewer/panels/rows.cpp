@@ -9,6 +9,8 @@ namespace {
 // Where controls begin and how much room units take, unscaled.
 constexpr float control_column = 104;
 constexpr float unit_column = 48;
+constexpr float unit_gap = 6;
+constexpr float cell_gap = 20;
 
 }  // namespace
 
@@ -111,13 +113,53 @@ void number_row(const Ui& ui, const char* label, const Quantity& quantity) {
   ImGui::TextUnformatted(label);
   ImGui::PopStyleColor();
   const float right = ImGui::GetWindowContentRegionMax().x - unit_column * ui.scale;
-  ImGui::SameLine(right - ImGui::CalcTextSize(quantity.value.c_str()).x);
+  ImGui::SameLine();
+  ImGui::SetCursorPosX(right - ImGui::CalcTextSize(quantity.value.c_str()).x);
   ImGui::TextUnformatted(quantity.value.c_str());
   if (quantity.unit.empty()) return;
-  ImGui::SameLine(right + 6 * ui.scale);
+  ImGui::SameLine();
+  ImGui::SetCursorPosX(right + unit_gap * ui.scale);
   ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
   ImGui::TextUnformatted(quantity.unit.c_str());
   ImGui::PopStyleColor();
+}
+
+void number_row(const Ui& ui, const char* label, const Quantity& quantity,
+                const std::string& help) {
+  ImGui::BeginGroup();
+  number_row(ui, label, quantity);
+  ImGui::EndGroup();
+  tooltip(ui, help);
+}
+
+float place_cell(const Ui& ui, int cell, int cell_count) {
+  if (cell > 0) ImGui::SameLine();
+  const float left = ImGui::GetWindowContentRegionMin().x;
+  const float room = ImGui::GetWindowContentRegionMax().x - left;
+  const float gap = cell_gap * ui.scale;
+  const float width = (room + gap) / static_cast<float>(cell_count) - gap;
+  ImGui::SetCursorPosX(left + static_cast<float>(cell) * (width + gap));
+  return width;
+}
+
+void cell_row(const Ui& ui, std::initializer_list<Cell> cells) {
+  const ImU32 dim = ImGui::GetColorU32(palette::dim);
+  const auto width_of = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
+  int index = 0;
+  for (const Cell& cell : cells) {
+    const float width = place_cell(ui, index++, static_cast<int>(cells.size()));
+    const ImVec2 left = ImGui::GetCursorScreenPos();
+    ImGui::Dummy(ImVec2(width, ImGui::GetTextLineHeight()));
+    tooltip(ui, cell.help);
+    const std::string& unit = cell.quantity.unit;
+    const float unit_left = left.x + width - width_of(unit);
+    const float value_right = unit.empty() ? unit_left : unit_left - unit_gap * ui.scale;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddText(left, dim, cell.label);
+    list.AddText(ImVec2(value_right - width_of(cell.quantity.value), left.y),
+                 ImGui::GetColorU32(palette::text), cell.quantity.value.c_str());
+    list.AddText(ImVec2(unit_left, left.y), dim, unit.c_str());
+  }
 }
 
 }  // namespace app

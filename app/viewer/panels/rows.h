@@ -35,6 +35,17 @@ void begin_slider(double part, float kept_width);
 void end_slider();
 /// A number, right-aligned, with its unit.
 void number_row(const Ui& ui, const char* label, const Quantity& quantity);
+/// The same, which says `help` when hovered.
+void number_row(const Ui& ui, const char* label, const Quantity& quantity, const std::string& help);
+/// Numbers side by side, each in an equal part of the row.
+struct Cell {
+  const char* label;
+  Quantity quantity;
+  std::string help;
+};
+void cell_row(const Ui& ui, std::initializer_list<Cell> cells);
+/// Puts the next item at the left of one of `cell_count` equal parts of the row; returns its width.
+float place_cell(const Ui& ui, int cell, int cell_count);
 /// A wrapped tooltip for the item before it.
 void tooltip(const Ui& ui, const std::string& text);
 

@@ -2,9 +2,12 @@
 #include "app/viewer/panels/statistics_panel.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
 
 #include <fmt/format.h>
+
+#include "app/viewer/panels/histogram.h"
 
 namespace app {
 namespace {
@@ -42,18 +45,75 @@ void draw_speed_up(const Ui& ui, const Status& status) {
                           rate(status.mrays_per_second_brute_force).value));
 }
 
+std::string of_leaves(uint32_t count) {
+  return fmt::format("{} {}", format_count(count), count == 1 ? "leaf" : "leaves");
+}
+
+Quantity number_or_dash(bool is_known, double value) {
+  return {is_known ? format_three_digits(value) : "–", ""};
+}
+
+void draw_histograms(const Ui& ui, const tracer::TreeMetrics& tree) {
+  const std::string depth_help =
+      "How many leaves lie how deep. A tree that treats all alike has one narrow hill.";
+  histogram(ui, "leaf-depths", place_cell(ui, 0, 2), tree.leaves_at_depth, depth_help,
+            [&](size_t depth) {
+              return fmt::format("{} at depth {}.", of_leaves(tree.leaves_at_depth[depth]), depth);
+            });
+  // No leaf is empty: the first bar is of those of one triangle.
+  const std::span<const uint32_t> sizes(tree.leaves_of_size);
+  histogram(ui, "leaf-sizes", place_cell(ui, 1, 2), sizes.empty() ? sizes : sizes.subspan(1),
+            "How many leaves hold how many triangles.", [&](size_t bar) {
+              const size_t size = bar + 1;
+              return fmt::format("{} of {}{} {}.", of_leaves(sizes[size]), size,
+                                 size == tracer::largest_told_leaf ? " or more" : "",
+                                 size == 1 ? "triangle" : "triangles");
+            });
+}
+
+void draw_costs(const Ui& ui, const Status& status) {
+  const tracer::TreeMetrics& tree = status.tree;
+  const tracer::TreeQuality quality = status.tree_quality.value_or(tracer::TreeQuality{});
+  const bool has_tree = tree.node_count > 0;
+  const bool has_quality = has_tree && status.tree_quality.has_value();
+  const std::string sah_help = fmt::format(
+      "Surface area heuristic: the nodes (cost {} each) and triangles (cost {} each) that a random "
+      "line through the model is expected to meet. Lower is better.",
+      tree.costs.traversal, tree.costs.intersection);
+  const std::string epo_help = fmt::format(
+      "Effective primitive overlap: the cost of nodes that a point of the surface lies in though "
+      "its triangle is in none of their leaves, so work in vain. Lower is better. {}",
+      quality.epo.sample_count > 0
+          ? fmt::format("From {} points.", format_count(quality.epo.sample_count))
+          : "Exact.");
+  const std::string lcv_help = fmt::format(
+      "Leaf count variability: by how much lines through the model differ in the number of leaves "
+      "they meet (standard deviation). Lower is steadier. From {} lines.",
+      format_count(quality.lcv.ray_count));
+  cell_row(ui, {{"SAH", number_or_dash(has_tree, tree.sah_cost), sah_help},
+                {"EPO", number_or_dash(has_quality, quality.epo.value), epo_help},
+                {"LCV", number_or_dash(has_quality, quality.lcv.value), lcv_help}});
+}
+
 void draw_tree(const Ui& ui, const Status& status) {
   const tracer::TreeMetrics& tree = status.tree;
+  const bool has_tree = tree.node_count > 0;
   const uint32_t triangle_count = status.model ? status.model->scene.mesh->triangle_count() : 0;
   number_row(ui, "Triangles", count_or_dash(triangle_count));
-  number_row(ui, "Nodes", count_or_dash(tree.node_count));
-  number_row(ui, "Leaves", count_or_dash(tree.leaf_count));
-  const bool has_tree = tree.node_count > 0;
-  number_row(ui, "Depth", {has_tree ? std::to_string(tree.depth) : "–", ""});
-  number_row(ui, "Largest leaf", count_or_dash(tree.largest_leaf));
-  number_row(ui, "SAH cost", {has_tree ? format_three_digits(tree.sah_cost) : "–", ""});
-  number_row(ui, "Build", has_tree ? format_seconds(status.build_seconds) : Quantity{"–", "ms"});
-  number_row(ui, "Load", status.model ? format_seconds(status.load_seconds) : Quantity{"–", "ms"});
+  number_row(ui, "Nodes", count_or_dash(tree.node_count),
+             "Boxes in the tree: inner nodes, which hold two nodes each, and leaves.");
+  number_row(ui, "Leaves", count_or_dash(tree.leaf_count), "Nodes that hold triangles.");
+  cell_row(ui, {{"Depth",
+                 {has_tree ? std::to_string(tree.depth) : "–", ""},
+                 "Steps from the root to the deepest leaf."},
+                {"Largest leaf", count_or_dash(tree.largest_leaf),
+                 "A ray that enters it is tested against so many triangles."}});
+  draw_histograms(ui, tree);
+  draw_costs(ui, status);
+  cell_row(ui, {{"Build", has_tree ? format_seconds(status.build_seconds) : Quantity{"–", "ms"},
+                 "Building the tree and laying it out for the traversal."},
+                {"Load", status.model ? format_seconds(status.load_seconds) : Quantity{"–", "ms"},
+                 "Reading the file and making a mesh of it."}});
 }
 
 void draw_tracing(const Ui& ui, const Status& status, int sample_limit) {
