@@ -45,7 +45,7 @@ testing::AssertionResult is_exact(const Ray& ray, const Triangle& triangle) {
     return testing::AssertionFailure() << (hit ? "a false hit" : "a lost hit");
   }
   if (!hit) return testing::AssertionSuccess();
-  if (std::abs(hit->t - exact.t) > 0x1p-40L * std::abs(exact.t)) {
+  if (std::abs(hit->t - exact.t) > 0x1p-32L * std::abs(exact.t)) {
     return testing::AssertionFailure() << "t " << hit->t << " is not " << exact.t;
   }
   if (!(hit->u >= 0 && hit->v >= 0 && hit->u + hit->v <= 1)) {

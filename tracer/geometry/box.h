@@ -60,7 +60,7 @@ struct Box {
 inline std::pair<double, double> Box::intersect(const RaySlabs& ray) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double miss = std::numeric_limits<float>::max();
-  constexpr double pad = 0x1p-38;
+  constexpr double pad = 0x1p-30;
   double entry = -infinity;
   double exit = infinity;
   for (int axis = 0; axis < 3; ++axis) {

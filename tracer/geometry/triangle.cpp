@@ -16,8 +16,8 @@ constexpr double v_w_error = 16 * 0x1p-53;
 constexpr double u_error = 36 * 0x1p-53;
 constexpr double numerator_error = 18 * 0x1p-53;
 constexpr double determinant_error = 16 * 0x1p-53;
-// Two such relative errors and a rounded division stay within 2^-40.
-constexpr double quotient_part_error = 0.9 * 0x1p-41;
+// Two such relative errors and a rounded division stay within 2^-32.
+constexpr double quotient_part_error = 0.9 * 0x1p-33;
 
 // Barycentric weights of v0, v1, v2, times the determinant; not all zero, and no two of
 // different sign, where the line meets the triangle.
@@ -110,8 +110,12 @@ std::optional<TriangleHit> intersect_triangle(const Ray& ray, const Vec3f& v0, c
 
   Quotient quotient{glm::dot(to_v0, normal), determinant};
   const double normal_bound = length1 * length2;
-  if (numerator_error * sum_abs(to_v0) * normal_bound >
-          quotient_part_error * std::abs(quotient.numerator) ||
+  const double numerator_bound = numerator_error * sum_abs(to_v0) * normal_bound;
+  // A triangle behind the origin, however near: where rays leave a surface, mostly this one.
+  if (quotient.numerator * weights.sum() < 0 && std::abs(quotient.numerator) > numerator_bound) {
+    return std::nullopt;
+  }
+  if (numerator_bound > quotient_part_error * std::abs(quotient.numerator) ||
       determinant_error * speed * normal_bound >
           quotient_part_error * std::abs(quotient.denominator)) {
     quotient = exact_distance(ray, v0, v1, v2);

@@ -3,179 +3,330 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <new>
 
+#include <sys/mman.h>
+
+#include "tracer/base/parallel.h"
+
 namespace tracer {
 
 FloatRows::FloatRows(size_t row_count, int width) : row_count_(row_count), width_(width) {
-  constexpr size_t alignment = 64;
-  const size_t rounded = (bytes() + alignment - 1) / alignment * alignment;
-  data_.reset(static_cast<float*>(std::aligned_alloc(alignment, std::max(rounded, alignment))));
+  // Large trees in large pages: fewer to fault in and to look up.
+  constexpr size_t large_page = size_t{1} << 21;
+  const size_t alignment = bytes() >= 2 * large_page ? large_page : 64;
+  const size_t rounded = std::max((bytes() + alignment - 1) / alignment * alignment, alignment);
+  data_.reset(static_cast<float*>(std::aligned_alloc(alignment, rounded)));
   if (!data_) throw std::bad_alloc();
+  if (alignment == large_page) madvise(data_.get(), rounded, MADV_HUGEPAGE);
 }
 
 namespace {
 
-/// Follows the binary tree twice: first to count nodes and blocks, then to fill them.
+// Relative times of a node's boxes and of a block's triangles, measured.
+constexpr float node_cost = 1.0f;
+constexpr float block_cost = 1.0f;
+
+// Subtrees above this size are worked on in parallel.
+constexpr uint32_t task_size = 16384;
+
+constexpr size_t max_width = 16;
+
+/// Which nodes of the binary tree become nodes of the wide one: those for which the surface area
+/// cost of the whole is least. [Wald 2008] collapses greedily; this is the dynamic program over
+/// forests: costs[k] is the least cost of a subtree as at most k + 1 children of a wide node.
 class Collapse {
  public:
   Collapse(const BvhTree& tree, const Mesh& mesh, int width, Progress& progress)
-      : tree_(tree), mesh_(mesh), progress_(progress) {
+      : tree_(tree),
+        mesh_(mesh),
+        progress_(progress),
+        width_(static_cast<uint32_t>(width)),
+        counts_(tree.nodes.size()),
+        costs_(std::make_unique_for_overwrite<Costs[]>(tree.nodes.size())),
+        totals_(std::make_unique_for_overwrite<Totals[]>(tree.nodes.size())) {
     wide_.width = width;
   }
 
   WideTree run() {
-    count_primitives();
-    ++node_count_;
-    for (const uint32_t child : children_of(0)) count(child);
-    wide_.nodes = FloatRows(node_count_ * WideTree::rows_a_node, wide_.width);
-    wide_.blocks = FloatRows(block_count_ * WideTree::rows_a_block, wide_.width);
-    wide_.block_infos.resize(block_count_);
     progress_.start_stage("laying out the tree");
-    node_count_ = block_count_ = 0;
+    count_primitives();
+    if (!is_block(0)) find_costs(0);
+    const Totals totals = plan_node(0);
+    wide_.nodes = FloatRows(totals.nodes * WideTree::rows_a_node, wide_.width);
+    wide_.blocks = FloatRows(totals.blocks * WideTree::rows_a_block, wide_.width);
+    wide_.block_infos.resize(totals.blocks);
     const Box& bounds = tree_.nodes[0].bounds;
     for (int axis = 0; axis < 3; ++axis) {
       wide_.max_coordinate =
           std::max({wide_.max_coordinate, std::abs(bounds.min[axis]), std::abs(bounds.max[axis])});
     }
-    fill_node(0);
+    fill_node(0, {0, 0});
     return std::move(wide_);
   }
 
  private:
-  struct Range {
-    uint32_t first = 0;
-    uint32_t count = 0;
+  using Costs = std::array<float, max_width>;
+
+  /// Of a wide subtree; or where it begins.
+  struct Totals {
+    size_t nodes = 0;
+    size_t blocks = 0;
   };
 
   struct Children {
-    std::array<uint32_t, 16> nodes;
-    size_t count;
+    std::array<uint32_t, max_width> nodes;
+    size_t count = 0;
 
     const uint32_t* begin() const { return nodes.data(); }
     const uint32_t* end() const { return nodes.data() + count; }
   };
 
-  // Primitives below each node; they are contiguous in tree.primitives.
   void count_primitives() {
-    ranges_.resize(tree_.nodes.size());
     for (size_t i = tree_.nodes.size(); i-- > 0;) {
       const BvhNode& node = tree_.nodes[i];
-      if (node.is_leaf()) {
-        ranges_[i] = {node.first, node.count};
-      } else {
-        const Range& left = ranges_[node.first];
-        const Range& right = ranges_[node.first + 1];
-        ranges_[i] = {std::min(left.first, right.first), left.count + right.count};
-      }
+      counts_[i] = node.is_leaf() ? node.count : counts_[node.first] + counts_[node.first + 1];
     }
   }
 
-  bool becomes_leaf(uint32_t node) const {
-    return tree_.nodes[node].is_leaf() || ranges_[node].count <= static_cast<uint32_t>(wide_.width);
+  // Few primitives always become one block: there is nothing to gain by a split.
+  bool is_block(uint32_t node) const {
+    return tree_.nodes[node].is_leaf() || counts_[node] <= std::max(width_ / 2, 4u);
   }
 
-  size_t block_count_of(uint32_t node) const {
-    return (ranges_[node].count + static_cast<size_t>(wide_.width) - 1) / wide_.width;
+  float area(uint32_t node) const {
+    return static_cast<float>(tree_.nodes[node].bounds.half_area());
+  }
+  size_t block_count(uint32_t node) const { return (counts_[node] + width_ - 1) / width_; }
+  float block_costs(uint32_t node) const {
+    return area(node) * block_cost * static_cast<float>(block_count(node));
+  }
+
+  float cost(uint32_t node, size_t child_count) const {
+    return is_block(node) ? block_costs(node) : costs_[node][child_count - 1];
+  }
+
+  // f() and g(), in parallel for large subtrees.
+  template <class F, class G>
+  void both(uint32_t node, F&& f, G&& g) const {
+    if (counts_[node] <= task_size) {
+      f();
+      g();
+    } else {
+      progress_.throw_if_stopped();
+      parallel_invoke(f, g);
+      progress_.throw_if_stopped();
+    }
+  }
+
+  void find_costs(uint32_t node) {
+    const uint32_t left = tree_.nodes[node].first;
+    const uint32_t right = left + 1;
+    both(
+        node,
+        [&] {
+          if (!is_block(left)) find_costs(left);
+        },
+        [&] {
+          if (!is_block(right)) find_costs(right);
+        });
+    Costs left_costs, right_costs;
+    for (size_t k = 0; k < max_width; ++k) {
+      left_costs[k] = cost(left, k + 1);
+      right_costs[k] = cost(right, k + 1);
+    }
+    Costs& costs = costs_[node];
+    costs.fill(std::numeric_limits<float>::infinity());
+    for (size_t k = 0; k + 1 < width_; ++k) {
+      for (size_t other = 0; other + k + 1 < width_; ++other) {
+        costs[k + other + 1] = std::min(costs[k + other + 1], left_costs[k] + right_costs[other]);
+      }
+    }
+    costs[0] = area(node) * node_cost + costs[width_ - 1];
+    if (counts_[node] <= width_) costs[0] = std::min(costs[0], block_costs(node));
+    for (size_t k = 1; k < width_; ++k) costs[k] = std::min(costs[k], costs[k - 1]);
+  }
+
+  bool becomes_leaf(uint32_t node) const {
+    return is_block(node) || (counts_[node] <= width_ && costs_[node][0] == block_costs(node));
+  }
+
+  // The subtree as at most `child_count` children.
+  void add_children(uint32_t node, size_t child_count, Children& children) const {
+    if (child_count == 1 || is_block(node) || costs_[node][child_count - 1] == costs_[node][0]) {
+      children.nodes[children.count++] = node;
+    } else {
+      split_children(node, child_count, children);
+    }
+  }
+
+  void split_children(uint32_t node, size_t child_count, Children& children) const {
+    const uint32_t left = tree_.nodes[node].first;
+    size_t best = 1;
+    float least = std::numeric_limits<float>::infinity();
+    for (size_t k = 1; k < child_count; ++k) {
+      const float sum = cost(left, k) + cost(left + 1, child_count - k);
+      if (sum < least) least = sum, best = k;
+    }
+    add_children(left, best, children);
+    add_children(left + 1, child_count - best, children);
   }
 
   Children children_of(uint32_t node) const {
     // A root that is a leaf becomes the one child of a node.
     if (becomes_leaf(node)) return {{node}, 1};
-    Children children{{tree_.nodes[node].first, tree_.nodes[node].first + 1}, 2};
-    while (children.count < static_cast<size_t>(wide_.width)) {
-      double largest_area = -1;
-      size_t largest = 0;
-      for (size_t i = 0; i < children.count; ++i) {
-        if (becomes_leaf(children.nodes[i])) continue;
-        const double area = tree_.nodes[children.nodes[i]].bounds.half_area();
-        if (area > largest_area) largest_area = area, largest = i;
-      }
-      if (largest_area < 0) break;
-      const uint32_t opened = children.nodes[largest];
-      children.nodes[largest] = tree_.nodes[opened].first;
-      children.nodes[children.count++] = tree_.nodes[opened].first + 1;
-    }
+    Children children;
+    split_children(node, width_, children);
     return children;
   }
 
-  void count(uint32_t node) {
-    if (becomes_leaf(node)) {
-      block_count_ += block_count_of(node);
-      return;
-    }
-    ++node_count_;
-    for (const uint32_t child : children_of(node)) count(child);
-  }
-
-  WideChild fill(uint32_t node) { return becomes_leaf(node) ? fill_leaf(node) : fill_node(node); }
-
-  /// The root is always a node, so that every leaf is met through the slabs of its box.
-  WideChild fill_node(uint32_t node) {
-    const size_t index = node_count_++;
+  // The root is always a node, so that every leaf is met through the slabs of its box.
+  Totals plan_node(uint32_t node) {
+    progress_.throw_if_stopped();
     const Children children = children_of(node);
-    for (size_t lane = 0; lane < static_cast<size_t>(wide_.width); ++lane) {
-      const bool is_used = lane < children.count;
-      const Box box = is_used ? tree_.nodes[children.nodes[lane]].bounds : Box{};
-      for (int axis = 0; axis < 3; ++axis) {
-        const size_t row = index * WideTree::rows_a_node + 2 * static_cast<size_t>(axis);
-        wide_.nodes.row(row)[lane] = box.min[axis];
-        wide_.nodes.row(row + 1)[lane] = box.max[axis];
-      }
-      const WideChild child = is_used ? fill(children.nodes[lane]) : WideChild::node(0);
-      wide_.nodes.row(index * WideTree::rows_a_node + 6)[lane] = std::bit_cast<float>(child.bits);
+    const auto plan_child = [&](size_t i) {
+      const uint32_t child = children.nodes[i];
+      totals_[child] = becomes_leaf(child) ? Totals{0, block_count(child)} : plan_node(child);
+    };
+    for_each_child(node, children, plan_child);
+    Totals totals{1, 0};
+    for (const uint32_t child : children) {
+      totals.nodes += totals_[child].nodes;
+      totals.blocks += totals_[child].blocks;
     }
-    return WideChild::node(static_cast<uint32_t>(index));
+    return totals;
   }
 
-  WideChild fill_leaf(uint32_t node) {
-    const size_t first_block = block_count_;
-    const size_t blocks = block_count_of(node);
-    block_count_ += blocks;
-    const Vec3d size = tree_.nodes[node].bounds.extent();
+  template <class F>
+  void for_each_child(uint32_t node, const Children& children, F&& f) const {
+    if (counts_[node] > task_size) {
+      parallel_for_each_index(0, children.count, f);
+    } else {
+      for (size_t i = 0; i < children.count; ++i) f(i);
+    }
+    progress_.throw_if_stopped();
+  }
+
+  // Writes the node at place.nodes; what is below it follows, and its blocks are at place.blocks.
+  void fill_node(uint32_t node, Totals place) {
+    const Children children = children_of(node);
+    std::array<Totals, max_width> places;
+    Totals next{place.nodes + 1, place.blocks};
+    float* const rows = wide_.nodes.row(place.nodes * WideTree::rows_a_node);
+    for (size_t lane = 0; lane < width_; ++lane) {
+      const bool is_used = lane < children.count;
+      const uint32_t child = is_used ? children.nodes[lane] : 0;
+      const Box box = is_used ? tree_.nodes[child].bounds : Box{};
+      for (size_t axis = 0; axis < 3; ++axis) {
+        rows[2 * axis * width_ + lane] = box.min[static_cast<int>(axis)];
+        rows[(2 * axis + 1) * width_ + lane] = box.max[static_cast<int>(axis)];
+      }
+      WideChild link = WideChild::node(0);
+      if (is_used) {
+        link = becomes_leaf(child) ? WideChild::leaf(static_cast<uint32_t>(next.blocks))
+                                   : WideChild::node(static_cast<uint32_t>(next.nodes));
+        places[lane] = next;
+        next.nodes += totals_[child].nodes;
+        next.blocks += totals_[child].blocks;
+      }
+      rows[6 * width_ + lane] = std::bit_cast<float>(link.bits);
+    }
+    for_each_child(node, children, [&](size_t i) {
+      const uint32_t child = children.nodes[i];
+      if (becomes_leaf(child)) {
+        fill_leaf(child, places[i].blocks);
+      } else {
+        fill_node(child, places[i]);
+      }
+    });
+    report(children, node);
+  }
+
+  void fill_leaf(uint32_t node, size_t block) {
+    LeafWriter writer{*this, block, 0};
+    Box box = tree_.nodes[node].bounds;
+    writer.add_subtree(node, box);
+    const size_t end = writer.finish();
+    // Of all vertices and the leaf's box: spatial splits leave vertices outside it.
+    const Vec3d size = box.extent();
     const float extent = std::nextafter(static_cast<float>(std::max({size.x, size.y, size.z})),
                                         std::numeric_limits<float>::infinity());
-    const auto width = static_cast<size_t>(wide_.width);
-    for (size_t block = 0; block < blocks; ++block) {
-      if ((first_block + block) % 1024 == 0) report(first_block + block);
-      const size_t count = std::min(width, ranges_[node].count - block * width);
-      wide_.block_infos[first_block + block] = {extent, static_cast<uint16_t>(count),
-                                                static_cast<uint16_t>(block + 1 == blocks)};
-      for (size_t lane = 0; lane < width; ++lane) {
-        const size_t offset = block * width + std::min(lane, count - 1);
-        fill_lane(first_block + block, lane, tree_.primitives[ranges_[node].first + offset]);
-      }
-    }
-    return WideChild::leaf(static_cast<uint32_t>(first_block));
+    for (size_t i = block; i < end; ++i) wide_.block_infos[i].extent = extent;
   }
 
-  void report(size_t block) const {
-    progress_.throw_if_stopped();
-    progress_.set_fraction(static_cast<double>(block) / wide_.block_infos.size());
-  }
+  /// Puts a leaf's triangles into its blocks, one after the other.
+  struct LeafWriter {
+    Collapse& collapse;
+    size_t block;
+    size_t lane;
 
-  void fill_lane(size_t block, size_t lane, uint32_t primitive) {
-    const size_t row = block * WideTree::rows_a_block;
-    for (int corner = 0; corner < 3; ++corner) {
-      const Vec3f& position = mesh_.positions[mesh_.triangles[primitive][corner]];
-      for (int axis = 0; axis < 3; ++axis) {
-        wide_.blocks.row(row + static_cast<size_t>(3 * corner + axis))[lane] = position[axis];
+    void add_subtree(uint32_t index, Box& box) {
+      const BvhNode& node = collapse.tree_.nodes[index];
+      if (!node.is_leaf()) {
+        add_subtree(node.first, box);
+        add_subtree(node.first + 1, box);
+        return;
+      }
+      for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+        add(collapse.tree_.primitives[i], box);
       }
     }
-    wide_.blocks.row(row + 9)[lane] = std::bit_cast<float>(primitive);
+
+    void add(uint32_t primitive, Box& box) {
+      const size_t width = collapse.width_;
+      if (lane == width) {
+        collapse.wide_.block_infos[block] = {0, static_cast<uint16_t>(width), 0};
+        ++block;
+        lane = 0;
+      }
+      float* const rows = collapse.wide_.blocks.row(block * WideTree::rows_a_block) + lane++;
+      const Vec3u& triangle = collapse.mesh_.triangles[primitive];
+      for (size_t corner = 0; corner < 3; ++corner) {
+        const Vec3f& position = collapse.mesh_.positions[triangle[static_cast<int>(corner)]];
+        box.extend(position);
+        for (size_t axis = 0; axis < 3; ++axis) {
+          rows[(3 * corner + axis) * width] = position[static_cast<int>(axis)];
+        }
+      }
+      rows[9 * width] = std::bit_cast<float>(primitive);
+    }
+
+    // Unused lanes repeat the last triangle. Returns the block behind the last.
+    size_t finish() {
+      const size_t width = collapse.width_;
+      collapse.wide_.block_infos[block] = {0, static_cast<uint16_t>(lane), 1};
+      float* const rows = collapse.wide_.blocks.row(block * WideTree::rows_a_block);
+      for (size_t row = 0; row < WideTree::rows_a_block; ++row) {
+        std::fill(rows + row * width + lane, rows + (row + 1) * width,
+                  rows[row * width + lane - 1]);
+      }
+      return block + 1;
+    }
+  };
+
+  void report(const Children& children, uint32_t node) {
+    uint32_t placed = 0;
+    for (const uint32_t child : children) placed += becomes_leaf(child) ? counts_[child] : 0;
+    const uint32_t all = placed_.fetch_add(placed, std::memory_order_relaxed) + placed;
+    if (node == 0 || counts_[node] > 1024) {
+      progress_.set_fraction(static_cast<double>(all) / counts_[0]);
+    }
   }
 
   const BvhTree& tree_;
   const Mesh& mesh_;
   Progress& progress_;
+  const uint32_t width_;
+  std::vector<uint32_t> counts_;      // primitives below each node
+  std::unique_ptr<Costs[]> costs_;    // of nodes that are no blocks
+  std::unique_ptr<Totals[]> totals_;  // of nodes that became wide nodes or leaves
+  std::atomic<uint32_t> placed_{0};
   WideTree wide_;
-  std::vector<Range> ranges_;
-  size_t node_count_ = 0;
-  size_t block_count_ = 0;
 };
 
 }  // namespace

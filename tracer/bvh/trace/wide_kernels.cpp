@@ -28,8 +28,8 @@ bool is_in_kernel_range(const WideTree& tree, const Ray& ray) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   };
   const float direction = largest(ray.direction);
-  return direction > 0x1p-40f && direction < 0x1p40f && largest(ray.origin) < 0x1p40f &&
-         tree.max_coordinate > 0x1p-40f && tree.max_coordinate < 0x1p40f;
+  return direction > 0x1p-36f && direction < 0x1p36f && largest(ray.origin) < 0x1p36f &&
+         tree.max_coordinate > 0x1p-36f && tree.max_coordinate < 0x1p36f;
 }
 
 Hit closest_hit_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop) {

@@ -12,7 +12,7 @@ namespace tracer {
 int wide_kernel_width();
 
 /// Whether no product of the filter over or underflows: the scene's largest coordinate and the
-/// direction's largest component between 2^-40 and 2^40, the origin below 2^40. Other rays and
+/// direction's largest component between 2^-36 and 2^36, the origin below 2^36. Other rays and
 /// scenes are the recursive reference's.
 bool is_in_kernel_range(const WideTree& tree, const Ray& ray);
 
