@@ -36,6 +36,7 @@ constexpr float block_cost = 1.0f;
 constexpr uint32_t task_size = 16384;
 
 constexpr size_t max_width = 16;
+constexpr size_t core_cache_bytes = size_t{1} << 21;
 
 /// Which nodes of the binary tree become nodes of the wide one: those for which the surface area
 /// cost of the whole is least. [Wald 2008] collapses greedily; this is the dynamic program over
@@ -61,6 +62,7 @@ class Collapse {
     wide_.nodes = FloatRows(totals.nodes * WideTree::rows_a_node, wide_.width);
     wide_.blocks = FloatRows(totals.blocks * WideTree::rows_a_block, wide_.width);
     wide_.block_infos.resize(totals.blocks);
+    wide_.is_larger_than_cache = wide_.bytes() > core_cache_bytes;
     const Box& bounds = tree_.nodes[0].bounds;
     for (int axis = 0; axis < 3; ++axis) {
       wide_.max_coordinate =

@@ -60,7 +60,8 @@ struct WideTree {
   FloatRows nodes;  // nodes[0] is the root; unused lanes have empty boxes
   FloatRows blocks;
   std::vector<BlockInfo> block_infos;
-  float max_coordinate = 0;  // of all boxes, absolute
+  float max_coordinate = 0;           // of all boxes, absolute
+  bool is_larger_than_cache = false;  // a core's own
 
   size_t bytes() const {
     return nodes.bytes() + blocks.bytes() + block_infos.size() * sizeof(BlockInfo);

@@ -17,6 +17,8 @@ namespace {
 HWY_EXPORT(KernelWidth);
 HWY_EXPORT(ClosestHit);
 HWY_EXPORT(Occluded);
+HWY_EXPORT(CountClosestHit);
+HWY_EXPORT(CountOccluded);
 }  // namespace
 
 int wide_kernel_width() {
@@ -38,6 +40,16 @@ Hit closest_hit_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop)
 
 bool occluded_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop) {
   return HWY_DYNAMIC_DISPATCH(Occluded)(tree, ray, stop);
+}
+
+Hit closest_hit_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop,
+                     VisitCounts& counts) {
+  return HWY_DYNAMIC_DISPATCH(CountClosestHit)(tree, ray, stop, counts);
+}
+
+bool occluded_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop,
+                   VisitCounts& counts) {
+  return HWY_DYNAMIC_DISPATCH(CountOccluded)(tree, ray, stop, counts);
 }
 
 }  // namespace tracer

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+
 #include "tracer/base/progress.h"
 #include "tracer/bvh/layout/wide_tree.h"
 #include "tracer/geometry/ray.h"
@@ -16,10 +18,23 @@ int wide_kernel_width();
 /// scenes are the recursive reference's.
 bool is_in_kernel_range(const WideTree& tree, const Ray& ray);
 
+/// What the kernels did for some rays.
+struct VisitCounts {
+  uint64_t nodes = 0;        // each one test of all its children's boxes
+  uint64_t blocks = 0;       // each one filter of all its triangles
+  uint64_t triangles = 0;    // in those blocks
+  uint64_t exact_tests = 0;  // that the filter could not exclude
+};
+
 /// The closest hit, and whether there is any: the same bits as the recursive reference gives over
 /// the same triangles. `tree.width` equals wide_kernel_width().
 /// Once `stop` is requested the answer may be a miss.
 Hit closest_hit_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop);
 bool occluded_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop);
+
+/// The same kernels, compiled to count as well.
+Hit closest_hit_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop,
+                     VisitCounts& counts);
+bool occluded_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop, VisitCounts& counts);
 
 }  // namespace tracer

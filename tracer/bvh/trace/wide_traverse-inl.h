@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstring>
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "tracer/bvh/build_settings.h"
@@ -24,6 +25,27 @@ HWY_BEFORE_NAMESPACE();
 namespace tracer {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+
+#if HWY_TARGET == HWY_SCALAR
+
+// No kernel: a width of 0 says so, and nobody calls the others.
+int KernelWidth() {
+  return 0;
+}
+Hit ClosestHit(const WideTree&, const Ray&, const StopFlag&) {
+  return {};
+}
+bool Occluded(const WideTree&, const Ray&, const StopFlag&) {
+  return false;
+}
+Hit CountClosestHit(const WideTree&, const Ray&, const StopFlag&, VisitCounts&) {
+  return {};
+}
+bool CountOccluded(const WideTree&, const Ray&, const StopFlag&, VisitCounts&) {
+  return false;
+}
+
+#else
 
 enum class Query { closest_hit, occluded };
 
@@ -37,13 +59,14 @@ constexpr size_t blocks_a_look = 256;
 
 /// What of a ray the slab tests and the triangle filter need, computed once.
 struct RayConstants {
-  float near_inverse[3];
-  float near_offset[3];  // near plane * near_inverse + near_offset <= true distance * (1 + 3u)
-  float far_inverse[3];
-  float far_offset[3];  // far plane * far_inverse + far_offset >= true distance * (1 + 4u)
-  size_t near_row[3];   // of a node, in floats: min, or max for a negative direction
-  size_t far_row[3];
-  size_t row_x, row_y, row_z;  // of a vertex in a block; z: the direction's largest component
+  // One lane an axis, and one unused.
+  alignas(16) float near_inverse[4];
+  alignas(16) float near_offset[4];  // near plane * near_inverse + it <= true distance * (1 + 3u)
+  alignas(16) float far_inverse[4];
+  alignas(16) float far_offset[4];   // far plane * far_inverse + it >= true distance * (1 + 4u)
+  alignas(16) uint32_t near_row[4];  // of a node, in floats: min, or max for a negative direction
+  alignas(16) uint32_t far_row[4];
+  uint32_t row_x, row_y, row_z;  // of a vertex in a block; z: the direction's largest component
   float origin_x, origin_y, origin_z;
   float shear_x, shear_y;
   float toward;             // sign of the largest component
@@ -59,44 +82,62 @@ HWY_INLINE float round_up(double value) {
 
 HWY_INLINE RayConstants prepare(const WideTree& tree, const Ray& ray) {
   RayConstants c;
-  const size_t width = hn::Lanes(Floats());
-  const Vec3f& d = ray.direction;
-  const float size[3] = {std::abs(d.x), std::abs(d.y), std::abs(d.z)};
-  const int z = size[0] >= size[1] ? (size[0] >= size[2] ? 0 : 2) : (size[1] >= size[2] ? 1 : 2);
-  const int x = z == 2 ? 0 : z + 1;
-  const int y = x == 2 ? 0 : x + 1;
-  c.row_x = static_cast<size_t>(x) * width;
-  c.row_y = static_cast<size_t>(y) * width;
-  c.row_z = static_cast<size_t>(z) * width;
-  c.origin_x = ray.origin[x];
-  c.origin_y = ray.origin[y];
-  c.origin_z = ray.origin[z];
-  c.shear_x = d[x] / d[z];
-  c.shear_y = d[y] / d[z];
-  c.toward = std::signbit(d[z]) ? -1.0f : 1.0f;
-  c.largest_component = size[z];
+  const auto width = static_cast<uint32_t>(hn::Lanes(Floats()));
+  const hn::FixedTag<float, 4> d4;
+  const hn::RebindToUnsigned<decltype(d4)> du4;
+  const Vec3f& o = ray.origin;
+  const Vec3f& direction = ray.direction;
+  // In registers: a load of what was stored in smaller parts would wait for the stores.
+  const auto lanes = [&](const Vec3f& v) {
+    return hn::ConcatLowerLower(d4, hn::Set(d4, v.z),
+                                hn::InterleaveLower(d4, hn::Set(d4, v.x), hn::Set(d4, v.y)));
+  };
+  const auto origin = lanes(o);
+  const auto component = lanes(direction);
+  const auto size = hn::Abs(component);
+
   // Of all coordinates that meet in a slab test.
   const float reach =
-      std::max({std::abs(ray.origin.x), std::abs(ray.origin.y), std::abs(ray.origin.z)}) +
-      tree.max_coordinate;
+      std::max(std::max(std::abs(o.x), std::abs(o.y)), std::abs(o.z)) + tree.max_coordinate;
+  const float size_x = std::abs(direction.x), size_y = std::abs(direction.y);
+  const float size_z = std::abs(direction.z), size_xy = std::max(size_x, size_y);
+  c.largest_component = std::max(size_xy, size_z);
   c.slack = 32 * u * reach;
   // A component so small that it moves the ray by less than the slack within the scene counts as
   // this small, and its slab is widened to last for all distances that matter.
-  const float smallest = 0x1p-40f * c.largest_component;
-  for (int axis = 0; axis < 3; ++axis) {
-    const bool is_parallel = size[axis] < smallest;
-    const float component = std::copysign(is_parallel ? smallest : size[axis], d[axis]);
-    const float inverse = 1.0f / component;
-    const size_t is_negative = std::signbit(d[axis]) ? 1 : 0;
-    c.near_row[axis] = (2 * static_cast<size_t>(axis) + is_negative) * width;
-    c.far_row[axis] = (2 * static_cast<size_t>(axis) + 1 - is_negative) * width;
-    const float offset = -(ray.origin[axis] * inverse);
-    const float pad = (is_parallel ? 16 : 8) * u * reach * std::abs(inverse);
-    c.near_inverse[axis] = inverse;
-    c.near_offset[axis] = offset - pad;
-    c.far_inverse[axis] = inverse * (1 + 8 * u);
-    c.far_offset[axis] = (offset + pad) * (1 + 8 * u);
-  }
+  const auto smallest = hn::Set(d4, 0x1p-40f * c.largest_component);
+  const auto is_parallel = hn::Lt(size, smallest);
+  const auto inverse = hn::Div(hn::Set(d4, 1.0f), hn::CopySign(hn::Max(size, smallest), component));
+  const auto offset = hn::Neg(hn::Mul(origin, inverse));
+  const auto pad =
+      hn::Mul(hn::IfThenElse(is_parallel, hn::Set(d4, 16 * u * reach), hn::Set(d4, 8 * u * reach)),
+              hn::Abs(inverse));
+  const auto widened = hn::Set(d4, 1 + 8 * u);
+  hn::Store(inverse, d4, c.near_inverse);
+  hn::Store(hn::Sub(offset, pad), d4, c.near_offset);
+  hn::Store(hn::Mul(inverse, widened), d4, c.far_inverse);
+  hn::Store(hn::Mul(hn::Add(offset, pad), widened), d4, c.far_offset);
+  const auto min_row = hn::Mul(hn::Iota(du4, 0), hn::Set(du4, 2 * width));
+  const auto max_row = hn::Add(min_row, hn::Set(du4, width));
+  const auto is_negative = hn::MaskFromVec(hn::BitCast(
+      du4, hn::BroadcastSignBit(hn::BitCast(hn::RebindToSigned<decltype(d4)>(), component))));
+  hn::Store(hn::IfThenElse(is_negative, max_row, min_row), du4, c.near_row);
+  hn::Store(hn::IfThenElse(is_negative, min_row, max_row), du4, c.far_row);
+
+  // Without branches: the largest component of random rays is not to be foreseen.
+  const int z = size_z > size_xy ? 2 : static_cast<int>(size_y > size_x);
+  constexpr uint8_t next[3] = {1, 2, 0};
+  const int x = next[z];
+  const int y = next[x];
+  c.row_x = static_cast<uint32_t>(x) * width;
+  c.row_y = static_cast<uint32_t>(y) * width;
+  c.row_z = static_cast<uint32_t>(z) * width;
+  c.origin_x = o[x];
+  c.origin_y = o[y];
+  c.origin_z = o[z];
+  c.shear_x = direction[x] * c.near_inverse[z];
+  c.shear_y = direction[y] * c.near_inverse[z];
+  c.toward = std::copysign(1.0f, direction[z]);
   const auto t_min = static_cast<float>(ray.t_min);
   c.t_min = std::max(0.0f, t_min - std::abs(t_min) * 2 * u);
   return c;
@@ -117,11 +158,27 @@ struct StackEntry {
   uint32_t entry;  // bits of a distance >= 0, which order as the distances do
 };
 
+/// Asks for what the children lead to, so that it is near when they are popped.
+HWY_INLINE void prefetch(const WideTree& tree, const WideChild* children, uint32_t bits) {
+  const size_t width = hn::Lanes(Floats());
+  for (; bits != 0; bits &= bits - 1) {
+    const WideChild child = children[std::countr_zero(bits)];
+    const bool is_leaf = child.is_leaf();
+    const size_t row_count = is_leaf ? WideTree::rows_a_block : WideTree::rows_a_node;
+    const float* rows =
+        (is_leaf ? tree.blocks : tree.nodes).row(0) + child.index() * row_count * width;
+    for (size_t line = 0; line < WideTree::rows_a_node * width; line += 16)
+      hwy::Prefetch(rows + line);
+    if (is_leaf) hwy::Prefetch(&tree.block_infos[child.index()]);
+  }
+}
+
 /// Pushes the children whose boxes the ray may meet before t_far, so that the nearest is popped
 /// first if `is_sorted`. t_far: the distance to stop at, times 1 + 8u.
 template <bool is_sorted>
-HWY_INLINE StackEntry* push_children(const float* HWY_RESTRICT node, const RayConstants& c,
-                                     float t_far, StackEntry* HWY_RESTRICT top) {
+HWY_INLINE StackEntry* push_children(const WideTree& tree, const float* HWY_RESTRICT node,
+                                     const RayConstants& c, float t_far,
+                                     StackEntry* HWY_RESTRICT top) {
   const Floats d;
   const size_t width = hn::Lanes(d);
   const auto near_plane = [&](int axis) {
@@ -160,6 +217,7 @@ HWY_INLINE StackEntry* push_children(const float* HWY_RESTRICT node, const RayCo
     }
     return top;
   }
+  if (tree.is_larger_than_cache) prefetch(tree, children, bits);
   const int second = std::countr_zero(rest);
   rest &= rest - 1;
   if (rest == 0) {
@@ -258,13 +316,32 @@ HWY_INLINE BlockHits hit_triangles(const float* HWY_RESTRICT block, const WideTr
   return {possible, possible & bits_of(hn::And(inside, within))};
 }
 
-template <Query query>
-HWY_INLINE Hit traverse(const WideTree& tree, const Ray& ray, const StopFlag& stop) {
+/// Probes watch a traversal; this one sees nothing and costs nothing.
+struct NoProbe {
+  void node() {}
+  void block(const WideTree::BlockInfo&) {}
+  void exact_test() {}
+};
+
+struct CountingProbe {
+  VisitCounts& counts;
+
+  void node() { ++counts.nodes; }
+  void block(const WideTree::BlockInfo& info) {
+    ++counts.blocks;
+    counts.triangles += info.count;
+  }
+  void exact_test() { ++counts.exact_tests; }
+};
+
+template <Query query, class Probe>
+HWY_INLINE Hit traverse(const WideTree& tree, const Ray& ray, const StopFlag& stop, Probe probe) {
   const Floats d;
   const size_t width = hn::Lanes(d);
   const RayConstants constants = prepare(tree, ray);
   const float* const nodes = tree.nodes.row(0);
   const float* const blocks = tree.blocks.row(0);
+  const WideTree::BlockInfo* const infos = tree.block_infos.data();
   StackEntry stack[stack_capacity];
   StackEntry* top = stack;
   StackEntry current{WideChild::node(0), std::bit_cast<uint32_t>(constants.t_min)};
@@ -272,8 +349,9 @@ HWY_INLINE Hit traverse(const WideTree& tree, const Ray& ray, const StopFlag& st
   float t_far = round_up(ray.t_max) * (1 + 8 * u);
   for (;;) {
     while (!current.child.is_leaf()) {
+      probe.node();
       const float* node = nodes + current.child.index() * (WideTree::rows_a_node * width);
-      top = push_children<query == Query::closest_hit>(node, constants, t_far, top);
+      top = push_children<query == Query::closest_hit>(tree, node, constants, t_far, top);
       if (top == stack) return best;
       current = *--top;
     }
@@ -283,13 +361,15 @@ HWY_INLINE Hit traverse(const WideTree& tree, const Ray& ray, const StopFlag& st
       for (size_t block = first_block;; ++block) {
         if ((block - first_block) % blocks_a_look == blocks_a_look - 1 && stop.requested())
           return {};
-        const WideTree::BlockInfo& info = tree.block_infos[block];
+        const WideTree::BlockInfo& info = infos[block];
+        probe.block(info);
         const float* rows = blocks + block * (WideTree::rows_a_block * width);
         const BlockHits hits = hit_triangles<query>(rows, info, constants, entry, t_far);
         if constexpr (query == Query::occluded) {
           if (hits.certain != 0) return {.t = 0, .primitive = 0};
         }
         for (uint32_t bits = hits.possible; bits != 0; bits &= bits - 1) {
+          probe.exact_test();
           const float* v = rows + std::countr_zero(bits);
           const auto vertex = [&](size_t row) {
             return Vec3f(v[row * width], v[(row + 1) * width], v[(row + 2) * width]);
@@ -315,21 +395,29 @@ HWY_INLINE Hit traverse(const WideTree& tree, const Ray& ray, const StopFlag& st
 
 // NOLINTBEGIN(misc-definitions-in-headers): each instruction set has a namespace of its own.
 int KernelWidth() {
-#if HWY_TARGET == HWY_SCALAR
-  return 0;
-#else
   return static_cast<int>(hn::Lanes(Floats()));
-#endif
 }
 
 Hit ClosestHit(const WideTree& tree, const Ray& ray, const StopFlag& stop) {
-  return traverse<Query::closest_hit>(tree, ray, stop);
+  return traverse<Query::closest_hit>(tree, ray, stop, NoProbe{});
 }
 
 bool Occluded(const WideTree& tree, const Ray& ray, const StopFlag& stop) {
-  return traverse<Query::occluded>(tree, ray, stop).is_hit();
+  return traverse<Query::occluded>(tree, ray, stop, NoProbe{}).is_hit();
+}
+
+Hit CountClosestHit(const WideTree& tree, const Ray& ray, const StopFlag& stop,
+                    VisitCounts& counts) {
+  return traverse<Query::closest_hit>(tree, ray, stop, CountingProbe{counts});
+}
+
+bool CountOccluded(const WideTree& tree, const Ray& ray, const StopFlag& stop,
+                   VisitCounts& counts) {
+  return traverse<Query::occluded>(tree, ray, stop, CountingProbe{counts}).is_hit();
 }
 // NOLINTEND(misc-definitions-in-headers)
+
+#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace tracer
