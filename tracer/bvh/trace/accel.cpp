@@ -70,8 +70,9 @@ TreeMetrics measure(const Accel& accel) {
 Hit RayCaster::closest_hit(const Ray& ray) {
   ++ray_count_;
   if (stop_.requested()) return {};
-  if (accel_.wide && is_in_kernel_range(*accel_.wide, ray)) {
-    return closest_hit_wide(*accel_.wide, ray, stop_);
+  if (accel_.wide) {
+    Hit hit;
+    if (closest_hit_wide(*accel_.wide, ray, stop_, hit)) return hit;
   }
   const auto intersect = triangle_intersector(*accel_.mesh, stop_);
   if (accel_.tree) return closest_hit_recursive(*accel_.tree, ray, intersect);
@@ -87,8 +88,9 @@ Hit RayCaster::closest_hit(const Ray& ray) {
 bool RayCaster::occluded(const Ray& ray) {
   ++ray_count_;
   if (stop_.requested()) return false;
-  if (accel_.wide && is_in_kernel_range(*accel_.wide, ray)) {
-    return occluded_wide(*accel_.wide, ray, stop_);
+  if (accel_.wide) {
+    Hit hit;
+    if (occluded_wide(*accel_.wide, ray, stop_, hit)) return hit.is_hit();
   }
   const auto intersect = triangle_intersector(*accel_.mesh, stop_);
   if (accel_.tree) return occluded_recursive(*accel_.tree, ray, intersect);

@@ -9,9 +9,6 @@
 #include "tracer/bvh/trace/wide_traverse-inl.h"
 
 #if HWY_ONCE
-#include <algorithm>
-#include <cmath>
-
 namespace tracer {
 namespace {
 HWY_EXPORT(KernelWidth);
@@ -25,31 +22,22 @@ int wide_kernel_width() {
   return HWY_DYNAMIC_DISPATCH(KernelWidth)();
 }
 
-bool is_in_kernel_range(const WideTree& tree, const Ray& ray) {
-  const auto largest = [](const Vec3f& v) {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  };
-  const float direction = largest(ray.direction);
-  return direction > 0x1p-36f && direction < 0x1p36f && largest(ray.origin) < 0x1p36f &&
-         tree.max_coordinate > 0x1p-36f && tree.max_coordinate < 0x1p36f;
+bool closest_hit_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit) {
+  return HWY_DYNAMIC_DISPATCH(ClosestHit)(tree, ray, stop, hit);
 }
 
-Hit closest_hit_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop) {
-  return HWY_DYNAMIC_DISPATCH(ClosestHit)(tree, ray, stop);
+bool occluded_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit) {
+  return HWY_DYNAMIC_DISPATCH(Occluded)(tree, ray, stop, hit);
 }
 
-bool occluded_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop) {
-  return HWY_DYNAMIC_DISPATCH(Occluded)(tree, ray, stop);
+bool closest_hit_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit,
+                      VisitCounts& counts) {
+  return HWY_DYNAMIC_DISPATCH(CountClosestHit)(tree, ray, stop, hit, counts);
 }
 
-Hit closest_hit_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop,
-                     VisitCounts& counts) {
-  return HWY_DYNAMIC_DISPATCH(CountClosestHit)(tree, ray, stop, counts);
-}
-
-bool occluded_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop,
+bool occluded_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit,
                    VisitCounts& counts) {
-  return HWY_DYNAMIC_DISPATCH(CountOccluded)(tree, ray, stop, counts);
+  return HWY_DYNAMIC_DISPATCH(CountOccluded)(tree, ray, stop, hit, counts);
 }
 
 }  // namespace tracer

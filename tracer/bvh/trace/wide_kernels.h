@@ -13,11 +13,6 @@ namespace tracer {
 /// 0 where there is no kernel for it and the recursive reference must answer.
 int wide_kernel_width();
 
-/// Whether no product of the filter over or underflows: the scene's largest coordinate and the
-/// direction's largest component between 2^-36 and 2^36, the origin below 2^36. Other rays and
-/// scenes are the recursive reference's.
-bool is_in_kernel_range(const WideTree& tree, const Ray& ray);
-
 /// What the kernels did for some rays.
 struct VisitCounts {
   uint64_t nodes = 0;        // each one test of all its children's boxes
@@ -26,15 +21,20 @@ struct VisitCounts {
   uint64_t exact_tests = 0;  // that the filter could not exclude
 };
 
-/// The closest hit, and whether there is any: the same bits as the recursive reference gives over
-/// the same triangles. `tree.width` equals wide_kernel_width().
-/// Once `stop` is requested the answer may be a miss.
-Hit closest_hit_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop);
-bool occluded_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop);
+/// The closest hit: the same bits as the recursive reference gives over the same triangles. False
+/// where the ray is out of range and the reference must answer: the direction's largest component
+/// or the scene's and the origin's largest coordinate together not between 2^-36 and 2^36.
+/// `tree.width` equals wide_kernel_width(). Once `stop` is requested the answer may be a miss.
+[[nodiscard]] bool closest_hit_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop,
+                                    Hit& hit);
+/// As above; `hit` is any hit, and only whether it is one counts.
+[[nodiscard]] bool occluded_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop,
+                                 Hit& hit);
 
 /// The same kernels, compiled to count as well.
-Hit closest_hit_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop,
-                     VisitCounts& counts);
-bool occluded_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop, VisitCounts& counts);
+[[nodiscard]] bool closest_hit_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop,
+                                    Hit& hit, VisitCounts& counts);
+[[nodiscard]] bool occluded_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop,
+                                 Hit& hit, VisitCounts& counts);
 
 }  // namespace tracer

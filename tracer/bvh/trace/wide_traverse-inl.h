@@ -32,16 +32,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 int KernelWidth() {
   return 0;
 }
-Hit ClosestHit(const WideTree&, const Ray&, const StopFlag&) {
-  return {};
-}
-bool Occluded(const WideTree&, const Ray&, const StopFlag&) {
+bool ClosestHit(const WideTree&, const Ray&, const StopFlag&, Hit&) {
   return false;
 }
-Hit CountClosestHit(const WideTree&, const Ray&, const StopFlag&, VisitCounts&) {
-  return {};
+bool Occluded(const WideTree&, const Ray&, const StopFlag&, Hit&) {
+  return false;
 }
-bool CountOccluded(const WideTree&, const Ray&, const StopFlag&, VisitCounts&) {
+bool CountClosestHit(const WideTree&, const Ray&, const StopFlag&, Hit&, VisitCounts&) {
+  return false;
+}
+bool CountOccluded(const WideTree&, const Ray&, const StopFlag&, Hit&, VisitCounts&) {
   return false;
 }
 
@@ -53,6 +53,9 @@ using Floats = hn::CappedTag<float, 16>;
 using Lanes = hn::Vec<Floats>;
 
 constexpr float u = 0x1p-24f;  // half an ulp of 1
+// Between them no product of the filter over or underflows.
+constexpr float least_coordinate = 0x1p-36f;
+constexpr float greatest_coordinate = 0x1p36f;
 constexpr int stack_capacity = max_tree_depth * 16;
 // Of one leaf, between two looks at the stop flag: some 10 microseconds.
 constexpr size_t blocks_a_look = 256;
@@ -80,8 +83,8 @@ HWY_INLINE float round_up(double value) {
   return static_cast<double>(rounded) < value ? std::nextafterf(rounded, FLT_MAX * 2) : rounded;
 }
 
-HWY_INLINE RayConstants prepare(const WideTree& tree, const Ray& ray) {
-  RayConstants c;
+/// Whether the ray is in the filter's range.
+HWY_INLINE bool prepare(const WideTree& tree, const Ray& ray, RayConstants& c) {
   const auto width = static_cast<uint32_t>(hn::Lanes(Floats()));
   const hn::FixedTag<float, 4> d4;
   const hn::RebindToUnsigned<decltype(d4)> du4;
@@ -102,6 +105,10 @@ HWY_INLINE RayConstants prepare(const WideTree& tree, const Ray& ray) {
   const float size_x = std::abs(direction.x), size_y = std::abs(direction.y);
   const float size_z = std::abs(direction.z), size_xy = std::max(size_x, size_y);
   c.largest_component = std::max(size_xy, size_z);
+  // Not ">=": NaN is out of range.
+  if (!(reach > least_coordinate && reach < greatest_coordinate &&
+        c.largest_component < greatest_coordinate && c.largest_component > least_coordinate))
+    return false;
   c.slack = 32 * u * reach;
   // A component so small that it moves the ray by less than the slack within the scene counts as
   // this small, and its slab is widened to last for all distances that matter.
@@ -140,7 +147,7 @@ HWY_INLINE RayConstants prepare(const WideTree& tree, const Ray& ray) {
   c.toward = std::copysign(1.0f, direction[z]);
   const auto t_min = static_cast<float>(ray.t_min);
   c.t_min = std::max(0.0f, t_min - std::abs(t_min) * 2 * u);
-  return c;
+  return true;
 }
 
 /// Lane i of the mask as bit i. Loads what was stored, no more, so that the store is forwarded.
@@ -334,25 +341,27 @@ struct CountingProbe {
   void exact_test() { ++counts.exact_tests; }
 };
 
+/// Nothing for a ray out of the filter's range.
 template <Query query, class Probe>
-HWY_INLINE Hit traverse(const WideTree& tree, const Ray& ray, const StopFlag& stop, Probe probe) {
+HWY_INLINE bool traverse(const WideTree& tree, const Ray& ray, const StopFlag& stop, Probe probe,
+                         Hit& best) {
   const Floats d;
   const size_t width = hn::Lanes(d);
-  const RayConstants constants = prepare(tree, ray);
+  RayConstants constants;
+  if (HWY_UNLIKELY(!prepare(tree, ray, constants))) return false;
   const float* const nodes = tree.nodes.row(0);
   const float* const blocks = tree.blocks.row(0);
   const WideTree::BlockInfo* const infos = tree.block_infos.data();
   StackEntry stack[stack_capacity];
   StackEntry* top = stack;
   StackEntry current{WideChild::node(0), std::bit_cast<uint32_t>(constants.t_min)};
-  Hit best;
   float t_far = round_up(ray.t_max) * (1 + 8 * u);
   for (;;) {
     while (!current.child.is_leaf()) {
       probe.node();
       const float* node = nodes + current.child.index() * (WideTree::rows_a_node * width);
       top = push_children<query == Query::closest_hit>(tree, node, constants, t_far, top);
-      if (top == stack) return best;
+      if (top == stack) return true;
       current = *--top;
     }
     const float entry = std::bit_cast<float>(current.entry);
@@ -360,13 +369,16 @@ HWY_INLINE Hit traverse(const WideTree& tree, const Ray& ray, const StopFlag& st
       const size_t first_block = current.child.index();
       for (size_t block = first_block;; ++block) {
         if ((block - first_block) % blocks_a_look == blocks_a_look - 1 && stop.requested())
-          return {};
+          return true;
         const WideTree::BlockInfo& info = infos[block];
         probe.block(info);
         const float* rows = blocks + block * (WideTree::rows_a_block * width);
         const BlockHits hits = hit_triangles<query>(rows, info, constants, entry, t_far);
         if constexpr (query == Query::occluded) {
-          if (hits.certain != 0) return {.t = 0, .primitive = 0};
+          if (hits.certain != 0) {
+            best.primitive = 0;
+            return true;
+          }
         }
         for (uint32_t bits = hits.possible; bits != 0; bits &= bits - 1) {
           probe.exact_test();
@@ -377,7 +389,10 @@ HWY_INLINE Hit traverse(const WideTree& tree, const Ray& ray, const StopFlag& st
           const auto found = intersect_triangle(ray, vertex(0), vertex(3), vertex(6));
           if (!found) continue;
           const Hit hit{found->t, found->u, found->v, std::bit_cast<uint32_t>(v[9 * width])};
-          if constexpr (query == Query::occluded) return hit;
+          if constexpr (query == Query::occluded) {
+            best = hit;
+            return true;
+          }
           if (hit.is_closer_than(best)) {
             best = hit;
             t_far = std::min(t_far, round_up(hit.t) * (1 + 8 * u));
@@ -387,7 +402,7 @@ HWY_INLINE Hit traverse(const WideTree& tree, const Ray& ray, const StopFlag& st
       }
     }
     do {
-      if (top == stack) return best;
+      if (top == stack) return true;
       current = *--top;
     } while (std::bit_cast<float>(current.entry) > t_far);
   }
@@ -398,22 +413,22 @@ int KernelWidth() {
   return static_cast<int>(hn::Lanes(Floats()));
 }
 
-Hit ClosestHit(const WideTree& tree, const Ray& ray, const StopFlag& stop) {
-  return traverse<Query::closest_hit>(tree, ray, stop, NoProbe{});
+bool ClosestHit(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit) {
+  return traverse<Query::closest_hit>(tree, ray, stop, NoProbe{}, hit);
 }
 
-bool Occluded(const WideTree& tree, const Ray& ray, const StopFlag& stop) {
-  return traverse<Query::occluded>(tree, ray, stop, NoProbe{}).is_hit();
+bool Occluded(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit) {
+  return traverse<Query::occluded>(tree, ray, stop, NoProbe{}, hit);
 }
 
-Hit CountClosestHit(const WideTree& tree, const Ray& ray, const StopFlag& stop,
-                    VisitCounts& counts) {
-  return traverse<Query::closest_hit>(tree, ray, stop, CountingProbe{counts});
+bool CountClosestHit(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit,
+                     VisitCounts& counts) {
+  return traverse<Query::closest_hit>(tree, ray, stop, CountingProbe{counts}, hit);
 }
 
-bool CountOccluded(const WideTree& tree, const Ray& ray, const StopFlag& stop,
+bool CountOccluded(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit,
                    VisitCounts& counts) {
-  return traverse<Query::occluded>(tree, ray, stop, CountingProbe{counts}).is_hit();
+  return traverse<Query::occluded>(tree, ray, stop, CountingProbe{counts}, hit);
 }
 // NOLINTEND(misc-definitions-in-headers)
 
