@@ -56,7 +56,7 @@ VirtualDisplay::VirtualDisplay() {
     dup2(silence, STDERR_FILENO);
     const std::string pipe_end = std::to_string(number_pipe[1]);
     execlp("Xvfb", "Xvfb", "-displayfd", pipe_end.c_str(), "-screen", "0", "1280x800x24", "-fbdir",
-           folder_.path().c_str(), "-nolisten", "tcp", nullptr);
+           folder_.path().c_str(), "-nocursor", "-nolisten", "tcp", nullptr);
     _exit(127);
   }
   close(number_pipe[1]);

@@ -35,8 +35,8 @@ ScreenFormat parse_screen_format(const char* bytes);
 /// The path of a program of that name; empty when there is none.
 std::string find_program(const std::string& name);
 
-/// An X server without a screen, 1280x800, for as long as this object lives. Sets DISPLAY, and
-/// software OpenGL on one thread, in this process's environment.
+/// An X server without a screen or a visible cursor, 1280x800, for as long as this object lives.
+/// Sets DISPLAY, and software OpenGL on one thread, in this process's environment.
 class VirtualDisplay {
  public:
   VirtualDisplay();

@@ -15,8 +15,23 @@ namespace bench {
 namespace {
 
 // [Okabe 2008]: told apart with every kind of color vision.
-constexpr const char* colors[] = {"#0072B2", "#56B4E9", "#E69F00", "#D55E00",
-                                  "#999999", "#009E73", "#CC79A7", "#F0E442"};
+constexpr const char* our_colors[] = {"#0072B2", "#56B4E9", "#009E73",
+                                      "#CC79A7", "#004A73", "#88CCEE"};
+constexpr const char* other_colors[] = {"#E69F00", "#D55E00", "#999999", "#F0E442"};
+
+using Colors = std::vector<std::string>;
+
+Colors colors_of(const std::vector<BarSeries>& series) {
+  size_t our_count = 0;
+  size_t other_count = 0;
+  Colors chosen;
+  for (const BarSeries& one : series) {
+    chosen.emplace_back(one.family == BarSeries::Family::ours
+                            ? our_colors[our_count++ % std::size(our_colors)]
+                            : other_colors[other_count++ % std::size(other_colors)]);
+  }
+  return chosen;
+}
 
 constexpr double width = 1200;
 constexpr double margin = 28;
@@ -55,12 +70,12 @@ std::string text(double x, double y, const TextStyle& style, const std::string& 
   constexpr const char* anchors[] = {"start", "middle", "end"};
   return fmt::format(
       "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" fill=\"{}\" text-anchor=\"{}\" "
-      "font-weight=\"{}\">{}</text>\n",
+      "font-weight=\"{}\" stroke=\"#FFFFFF\" stroke-width=\"3\" paint-order=\"stroke\">{}</text>\n",
       x, y, style.size, style.color, anchors[static_cast<int>(style.anchor)], style.weight,
       escaped(content));
 }
 
-std::string rectangle(double x, double y, double w, double h, const char* color) {
+std::string rectangle(double x, double y, double w, double h, const std::string& color) {
   return fmt::format(
       "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\"/>\n", x, y, w,
       h, color);
@@ -86,13 +101,13 @@ double tallest(const BarPanel& panel, double reference) {
   return top > 0 ? top : 1;
 }
 
-std::string legend(const BarChart& chart, double y) {
+std::string legend(const BarChart& chart, const Colors& colors, double y) {
   std::string svg;
   double x = margin;
   for (size_t i = 0; i < chart.series.size(); ++i) {
     svg += rectangle(x, y - 12, 14, 14, colors[i]);
-    svg += text(x + 20, y, {.size = 14}, chart.series[i]);
-    x += 44 + 7.6 * static_cast<double>(chart.series[i].size());
+    svg += text(x + 20, y, {.size = 14}, chart.series[i].name);
+    x += 44 + 7.6 * static_cast<double>(chart.series[i].name.size());
   }
   return svg;
 }
@@ -111,41 +126,46 @@ std::string axis(const BarPanel& panel, double base, double top) {
                     {.size = 12, .color = "#666666", .anchor = Anchor::end}, panel.axis);
 }
 
-std::string bars_of(const BarGroup& group, double left, double group_width, double base,
-                    double top) {
+/// Where a group of bars goes: [left, left + width), upward from base; `top` is the full height.
+struct GroupPlace {
+  double left, width, base, top;
+};
+
+std::string bars_of(const BarGroup& group, const Colors& colors, const GroupPlace& place) {
   const double bar_width = std::min(
-      0.86 * group_width / static_cast<double>(std::max<size_t>(group.bars.size(), 1)), 40.0);
-  const double middle = left + group_width / 2;
+      0.86 * place.width / static_cast<double>(std::max<size_t>(group.bars.size(), 1)), 40.0);
+  const double middle = place.left + place.width / 2;
   double x = middle - bar_width * static_cast<double>(group.bars.size()) / 2;
   std::string svg;
   for (const Bar& bar : group.bars) {
-    const double height = plot_height * bar.height / top;
-    svg += rectangle(x + 1, base - height, bar_width - 2, height, colors[bar.series]);
-    svg += text(x + bar_width / 2, base - height - 4,
+    const double height = plot_height * bar.height / place.top;
+    svg += rectangle(x + 1, place.base - height, bar_width - 2, height, colors[bar.series]);
+    svg += text(x + bar_width / 2, place.base - height - 4,
                 {.size = std::min(12.0, 0.42 * bar_width), .anchor = Anchor::middle}, bar.label);
     x += bar_width;
   }
-  svg += text(middle, base + 18, {.size = 14, .anchor = Anchor::middle}, group.label);
-  return svg + text(middle, base + 35,
-                    {.size = 13, .color = colors[0], .anchor = Anchor::middle, .weight = "bold"},
-                    group.note);
+  svg += text(middle, place.base + 18, {.size = 14, .anchor = Anchor::middle}, group.label);
+  return svg +
+         text(middle, place.base + 35,
+              {.size = 13, .color = our_colors[0], .anchor = Anchor::middle, .weight = "bold"},
+              group.note);
 }
 
-std::string panel_svg(const BarPanel& panel, double y, double reference) {
+std::string panel_svg(const BarPanel& panel, const Colors& colors, double y, double reference) {
   const double base = y + panel_height - panel_foot;
   const double top = tallest(panel, reference);
   std::string svg = text(margin, y + 22, {.size = 17, .weight = "bold"}, panel.title);
   svg += axis(panel, base, top);
+  if (reference > 0) {
+    svg += horizontal_line(base - plot_height * reference / top,
+                           "stroke=\"#222222\" stroke-dasharray=\"5 4\"");
+  }
   const double group_width = (width - 2 * margin - axis_width) /
                              static_cast<double>(std::max<size_t>(panel.groups.size(), 1));
   double left = margin + axis_width;
   for (const BarGroup& group : panel.groups) {
-    svg += bars_of(group, left, group_width, base, top);
+    svg += bars_of(group, colors, {left, group_width, base, top});
     left += group_width;
-  }
-  if (reference > 0) {
-    svg += horizontal_line(base - plot_height * reference / top,
-                           "stroke=\"#222222\" stroke-dasharray=\"5 4\"");
   }
   return svg;
 }
@@ -153,8 +173,7 @@ std::string panel_svg(const BarPanel& panel, double y, double reference) {
 }  // namespace
 
 std::string to_svg(const BarChart& chart) {
-  if (chart.series.size() > std::size(colors))
-    throw std::runtime_error("a chart of too many series");
+  const Colors colors = colors_of(chart.series);
   const double height =
       header_height + panel_height * static_cast<double>(chart.panels.size()) + footer_height;
   std::string svg = fmt::format(
@@ -164,10 +183,10 @@ std::string to_svg(const BarChart& chart) {
   svg += rectangle(0, 0, width, height, "#FFFFFF");
   svg += text(margin, 40, {.size = 24, .weight = "bold"}, chart.title);
   svg += text(margin, 64, {.size = 14, .color = "#555555"}, chart.subtitle);
-  svg += legend(chart, 94);
+  svg += legend(chart, colors, 94);
   double y = header_height;
   for (const BarPanel& panel : chart.panels) {
-    svg += panel_svg(panel, y, chart.reference);
+    svg += panel_svg(panel, colors, y, chart.reference);
     y += panel_height;
   }
   svg += text(margin, height - 14, {.size = 12, .color = "#777777"}, chart.footer);

@@ -8,6 +8,13 @@
 
 namespace bench {
 
+/// Ours are blue and green, others warm or grey.
+struct BarSeries {
+  enum class Family { ours, others };
+  std::string name;
+  Family family = Family::ours;
+};
+
 struct Bar {
   size_t series = 0;  // index into BarChart::series
   double height = 0;
@@ -16,7 +23,7 @@ struct Bar {
 
 struct BarGroup {
   std::string label;  // under the bars
-  std::string note;   // below it, in the color of the first series; may be empty
+  std::string note;   // below it, in the color of our first series; may be empty
   std::vector<Bar> bars;
 };
 
@@ -31,7 +38,7 @@ struct BarChart {
   std::string title;
   std::string subtitle;
   std::string footer;
-  std::vector<std::string> series;  // names, for the legend; at most 8
+  std::vector<BarSeries> series;  // in the order of the legend
   std::vector<BarPanel> panels;
   double reference = 0;  // a dashed line at this height; 0: none
 };

@@ -28,8 +28,11 @@ BarPanel make_panel(std::span<const BuildRecord> records, int threads, BarChart&
   BarPanel panel;
   for (const BuildRecord& record : records) {
     if (record.threads != threads) continue;
-    auto series = std::ranges::find(chart.series, record.builder);
-    if (series == chart.series.end()) series = chart.series.insert(series, record.builder);
+    auto series = std::ranges::find(chart.series, record.builder, &BarSeries::name);
+    if (series == chart.series.end()) {
+      using enum BarSeries::Family;
+      series = chart.series.insert(series, {record.builder, record.is_ours() ? ours : others});
+    }
     auto group = std::ranges::find(panel.groups, record.scene, &BarGroup::label);
     if (group == panel.groups.end()) group = panel.groups.insert(group, {record.scene, "", {}});
     group->bars.push_back({static_cast<size_t>(series - chart.series.begin()),

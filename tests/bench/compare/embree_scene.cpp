@@ -23,6 +23,7 @@ EmbreeScene::EmbreeScene(const tracer::Mesh& mesh, RTCBuildQuality quality, Embr
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                              mesh.triangles.data(), 0, sizeof(tracer::Vec3u),
                              mesh.triangles.size());
+  rtcSetGeometryBuildQuality(geometry, quality);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene_, geometry);
   rtcReleaseGeometry(geometry);

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <thread>
 
 #include <fmt/format.h>
@@ -84,12 +85,13 @@ void limit_samples(const ViewerUnderTest& viewer, Mouse& mouse) {
 }
 
 double seconds_to_answer(const ScreenWatch& screen, const Rectangle& area,
-                         const std::function<void()>& send_event) {
+                         const LatencyRecord& record, const std::function<void()>& send_event) {
   const uint64_t before = screen.fingerprint(area);
   const app::Stopwatch stopwatch;
   send_event();
   if (!screen.seconds_to_change(area, before, patience_seconds)) {
-    throw std::runtime_error("an event changes nothing on the screen");
+    throw std::runtime_error(fmt::format("{}: event {} of '{}' changes nothing on the screen",
+                                         record.scene, record.ms.size(), record.measure));
   }
   return stopwatch.seconds();
 }
@@ -141,7 +143,7 @@ LatencyRecord measure_dragging(const std::string& scene, const ViewerUnderTest& 
   for (int event = 0; event < event_count; ++event) {
     require_still(screen, picture,
                   0.06 + 0.0011 * (event % 16));  // in step with no clock of theirs
-    record.ms.push_back(1000 * seconds_to_answer(screen, picture, [&] { orbit.step(); }));
+    record.ms.push_back(1000 * seconds_to_answer(screen, picture, record, [&] { orbit.step(); }));
   }
   record.pictures_per_second = pictures_per_second(screen, picture, orbit);
   return record;
@@ -157,7 +159,7 @@ LatencyRecord measure_slider(const std::string& scene, const ViewerUnderTest& vi
   for (int event = 0; event < event_count; ++event) {
     move_to_part(mouse, slider, event % 2 == 0 ? 0.3 : 0.1);
     require_still(screen, numbers, 0.2 + 0.0011 * (event % 16));
-    record.ms.push_back(1000 * seconds_to_answer(screen, numbers, [&] { mouse.press(); }));
+    record.ms.push_back(1000 * seconds_to_answer(screen, numbers, record, [&] { mouse.press(); }));
     mouse.release();
   }
   return record;

@@ -27,24 +27,26 @@ double ratio_to(const RayRecord& record, const std::string& tracer) {
   return found == record.ratios.end() ? 0 : found->second;
 }
 
-std::vector<std::string> tracer_names(std::span<const RayRecord> records) {
-  std::vector<std::string> names;
+std::vector<BarSeries> series_of(std::span<const RayRecord> records) {
+  using enum BarSeries::Family;
+  std::vector<BarSeries> series;
   for (const RayRecord& record : records) {
-    if (std::ranges::find(names, record.tracer) == names.end()) names.push_back(record.tracer);
+    if (std::ranges::find(series, record.tracer, &BarSeries::name) != series.end()) continue;
+    series.push_back({record.tracer, is_ours(record.tracer) ? ours : others});
   }
-  return names;
+  return series;
 }
 
-BarGroup chart_group(std::span<const RayRecord> records, const std::vector<std::string>& names,
+BarGroup chart_group(std::span<const RayRecord> records, const std::vector<BarSeries>& all_series,
                      const std::string& scene, std::string_view kind) {
   BarGroup group{scene, "", {}};
   for (const RayRecord& record : records) {
     if (record.threads != 1 || record.scene != scene || record.rays != kind) continue;
     const double ratio = ratio_to(record, embree_default);
     const double speed = record.mrays_per_second.median;
-    const auto series =
-        static_cast<size_t>(std::ranges::find(names, record.tracer) - names.begin());
-    group.bars.push_back({series, ratio > 0 ? ratio : speed, three_digits(speed)});
+    const auto series = std::ranges::find(all_series, record.tracer, &BarSeries::name);
+    group.bars.push_back({static_cast<size_t>(series - all_series.begin()),
+                          ratio > 0 ? ratio : speed, three_digits(speed)});
     if (group.note.empty() && ratio > 0) group.note = fmt::format("× {:.2f}", ratio);
   }
   return group;
@@ -115,7 +117,7 @@ BarChart ray_chart(std::span<const RayRecord> records, const std::string& machin
                          "scene, Boxwood's single rays against Embree's."
                        : "Million rays a second; higher is better.";
   chart.footer = machine;
-  chart.series = tracer_names(records);
+  chart.series = series_of(records);
   chart.reference = has_ratios ? 1 : 0;
   std::vector<std::string> scenes;
   for (const RayRecord& record : records) {

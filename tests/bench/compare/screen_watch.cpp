@@ -16,7 +16,7 @@
 namespace bench {
 namespace {
 
-constexpr int rows_a_look = 8;
+constexpr int most_rows_a_look = 120;
 constexpr auto pause_between_looks = std::chrono::microseconds(400);
 
 }  // namespace
@@ -39,7 +39,9 @@ ScreenWatch::~ScreenWatch() {
 uint64_t ScreenWatch::fingerprint(const tests::Rectangle& area) const {
   uint64_t hash = 0;
   const int width = std::min(area.x1, format_.width) - area.x0;
-  for (int y = area.y0; y < std::min(area.y1, format_.height); y += rows_a_look) {
+  const int height = std::min(area.y1, format_.height) - area.y0;
+  const int row_step = height / most_rows_a_look + 1;
+  for (int y = area.y0; y < area.y0 + height; y += row_step) {
     const char* row = bytes_ + format_.pixels_offset_bytes +
                       static_cast<size_t>(y) * format_.row_bytes + 4 * static_cast<size_t>(area.x0);
     for (int x = 0; x + 2 <= width; x += 2) {

@@ -11,7 +11,7 @@
 namespace bench {
 
 /// Watches the pixels of a virtual display as they change, at little cost: the server's memory is
-/// shared, and every eighth row is looked at.
+/// shared, and of large areas only some rows are looked at.
 class ScreenWatch {
  public:
   /// Throws std::runtime_error.
