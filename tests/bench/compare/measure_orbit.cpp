@@ -27,8 +27,9 @@ constexpr double patience_seconds = 60;
 /// From an event to what it changes on the screen.
 struct LatencyRecord {
   std::string scene;
-  std::string measure;     // orbit: mouse motion to picture; slider: press to tree statistics
-  std::vector<double> ms;  // one an event
+  std::string measure;       // orbit: mouse motion to picture; slider: press to tree statistics
+  std::vector<double> ms{};  // one an event
+  int unanswered = 0;        // events without an answer
   double pictures_per_second = 0;  // orbit: while the mouse moves 60 times a second
 };
 
@@ -37,6 +38,7 @@ void to_json(nlohmann::json& json, const LatencyRecord& record) {
   json = {{"scene", record.scene},
           {"measure", record.measure},
           {"events", record.ms.size()},
+          {"unanswered", record.unanswered},
           {"ms",
            {{"min", spread.min},
             {"median", spread.median},
@@ -54,6 +56,7 @@ std::string table_line(const LatencyRecord& record) {
   if (record.pictures_per_second > 0) {
     line += fmt::format("  {:.0f} pictures a second while dragging", record.pictures_per_second);
   }
+  if (record.unanswered > 0) line += fmt::format("  {} unanswered", record.unanswered);
   return line;
 }
 
@@ -84,16 +87,18 @@ void limit_samples(const ViewerUnderTest& viewer, Mouse& mouse) {
   pause(0.1);
 }
 
-double seconds_to_answer(const ScreenWatch& screen, const Rectangle& area,
-                         const LatencyRecord& record, const std::function<void()>& send_event) {
+// Where a machine is so busy that the window sees two events as one, an answer may never come.
+void measure_answer(const ScreenWatch& screen, const Rectangle& area, LatencyRecord& record,
+                    const std::function<void()>& send_event) {
+  constexpr double longest_seconds = 5;
   const uint64_t before = screen.fingerprint(area);
   const app::Stopwatch stopwatch;
   send_event();
-  if (!screen.seconds_to_change(area, before, patience_seconds)) {
-    throw std::runtime_error(fmt::format("{}: event {} of '{}' changes nothing on the screen",
-                                         record.scene, record.ms.size(), record.measure));
+  if (screen.seconds_to_change(area, before, longest_seconds)) {
+    record.ms.push_back(1000 * stopwatch.seconds());
+  } else {
+    ++record.unanswered;
   }
-  return stopwatch.seconds();
 }
 
 /// Drags back and forth over the picture.
@@ -138,12 +143,12 @@ double pictures_per_second(const ScreenWatch& screen, const Rectangle& picture, 
 LatencyRecord measure_dragging(const std::string& scene, const ViewerUnderTest& viewer,
                                const ScreenWatch& screen, Mouse& mouse, int event_count) {
   const Rectangle picture = viewer.widget("picture");
-  LatencyRecord record{scene, "orbit", {}, 0};
+  LatencyRecord record{scene, "orbit"};
   Orbit orbit(mouse, picture);
   for (int event = 0; event < event_count; ++event) {
     require_still(screen, picture,
                   0.06 + 0.0011 * (event % 16));  // in step with no clock of theirs
-    record.ms.push_back(1000 * seconds_to_answer(screen, picture, record, [&] { orbit.step(); }));
+    measure_answer(screen, picture, record, [&] { orbit.step(); });
   }
   record.pictures_per_second = pictures_per_second(screen, picture, orbit);
   return record;
@@ -155,12 +160,14 @@ LatencyRecord measure_slider(const std::string& scene, const ViewerUnderTest& vi
   const Rectangle slider = viewer.widget("leaf-size");
   const Rectangle heading = viewer.widget("section Statistics");
   const Rectangle numbers{heading.x0, heading.y1, heading.x1, viewer.widget("rate").y0};
-  LatencyRecord record{scene, "slider", {}, 0};
+  LatencyRecord record{scene, "slider"};
   for (int event = 0; event < event_count; ++event) {
     move_to_part(mouse, slider, event % 2 == 0 ? 0.3 : 0.1);
     require_still(screen, numbers, 0.2 + 0.0011 * (event % 16));
-    record.ms.push_back(1000 * seconds_to_answer(screen, numbers, record, [&] { mouse.press(); }));
+    measure_answer(screen, numbers, record, [&] { mouse.press(); });
+    require_still(screen, numbers, 0.1);
     mouse.release();
+    pause(0.1);
   }
   return record;
 }
