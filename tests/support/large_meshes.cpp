@@ -92,7 +92,7 @@ Mesh bumpy_sphere(int cells_a_side) {
 }
 
 Mesh hair(uint32_t triangle_count, uint32_t seed) {
-  constexpr float length = 0.3f;
+  constexpr float length = 0.15f;
   constexpr float width = 0.001f;
   RandomSource random(seed);
   std::vector<Vec3f> positions;

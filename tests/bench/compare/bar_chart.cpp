@@ -14,7 +14,7 @@
 namespace bench {
 namespace {
 
-// [Okabe 2008]: told apart with every kind of color vision.
+// After Okabe and Ito: told apart with every kind of color vision.
 constexpr const char* our_colors[] = {"#0072B2", "#56B4E9", "#009E73",
                                       "#CC79A7", "#004A73", "#88CCEE"};
 constexpr const char* other_colors[] = {"#E69F00", "#D55E00", "#999999", "#F0E442"};
@@ -107,7 +107,7 @@ std::string legend(const BarChart& chart, const Colors& colors, double y) {
   for (size_t i = 0; i < chart.series.size(); ++i) {
     svg += rectangle(x, y - 12, 14, 14, colors[i]);
     svg += text(x + 20, y, {.size = 14}, chart.series[i].name);
-    x += 44 + 7.6 * static_cast<double>(chart.series[i].name.size());
+    x += 46 + 8.6 * static_cast<double>(chart.series[i].name.size());
   }
   return svg;
 }
