@@ -141,7 +141,7 @@ std::string bars_of(const BarGroup& group, const Colors& colors, const GroupPlac
     const double height = plot_height * bar.height / place.top;
     svg += rectangle(x + 1, place.base - height, bar_width - 2, height, colors[bar.series]);
     svg += text(x + bar_width / 2, place.base - height - 4,
-                {.size = std::min(12.0, 0.42 * bar_width), .anchor = Anchor::middle}, bar.label);
+                {.size = std::min(12.0, 0.32 * bar_width), .anchor = Anchor::middle}, bar.label);
     x += bar_width;
   }
   svg += text(middle, place.base + 18, {.size = 14, .anchor = Anchor::middle}, group.label);

@@ -101,7 +101,7 @@ BuildRecord make_record(const Scene& scene, const std::string& builder,
   return record;
 }
 
-// Round by round, each builder once; the first round warms up and counts only when it is alone.
+// Round by round, each builder once, so that noise meets all of them.
 std::vector<BuildRecord> compare_scene(const Scene& scene, int repeat_count) {
   const std::vector<Contestant> all = contestants();
   std::vector<std::vector<BuildRun>> runs(all.size());
