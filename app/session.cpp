@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "app/background_thread.h"
 #include "app/session_changes.h"
 #include "app/session_jobs.h"
 #include "app/session_quality.h"
@@ -100,6 +101,7 @@ void Session::State::post_news() {
 }
 
 void Session::State::run_jobs() {
+  give_way_to_window();
   std::unique_lock lock(mutex);
   while (!is_quitting) {
     if (open_request) {
@@ -245,6 +247,8 @@ Status Session::State::status() {
   status.is_loading = job.kind == JobKind::load || open_request.has_value();
   status.is_building = job.kind == JobKind::build || job.kind == JobKind::shade;
   status.is_rendering = render.is_rendering;
+  status.is_answered = is_edited_model() && job.kind == JobKind::none && !wants_tree() &&
+                       !wants_shading() && render.is_picture_whole;
   if (job.progress) {
     status.stage = job.progress->stage();
     status.fraction = job.progress->fraction();

@@ -41,6 +41,7 @@ struct Status {
   bool is_loading = false;
   bool is_building = false;
   bool is_rendering = false;
+  bool is_answered = false;       // the edits' tree is in use, and all of the picture shows them
   std::string stage;              // of the job that runs
   float fraction = 0;             // of the stage
   std::string loading_path;       // while is_loading

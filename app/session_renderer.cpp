@@ -5,6 +5,8 @@
 #include <chrono>
 #include <utility>
 
+#include "app/background_thread.h"
+
 namespace app {
 namespace {
 
@@ -75,7 +77,8 @@ void SessionRenderer::set_sample_limit(int sample_limit) {
 
 RenderStatus SessionRenderer::status() {
   const std::lock_guard lock(mutex_);
-  return {is_rendering_, pass_.sample, rates_};
+  const bool is_picture_whole = pass_.sample > 0 || pass_.stride < tracer::first_pass.stride;
+  return {is_rendering_, is_picture_whole, pass_.sample, rates_};
 }
 
 bool SessionRenderer::has_work() const {
@@ -83,6 +86,7 @@ bool SessionRenderer::has_work() const {
 }
 
 void SessionRenderer::run() {
+  give_way_to_window();
   std::unique_lock lock(mutex_);
   while (!is_quitting_) {
     if (requested_) {

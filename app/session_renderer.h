@@ -27,7 +27,8 @@ struct PictureRequest {
 
 struct RenderStatus {
   bool is_rendering = false;
-  uint32_t samples = 0;  // whole passes in the picture
+  bool is_picture_whole = false;  // each block of the coarsest pass is traced
+  uint32_t samples = 0;           // whole passes in the picture
   TraceRates rates;
 };
 

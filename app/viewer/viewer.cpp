@@ -73,7 +73,10 @@ double Viewer::seconds_to_frame() const {
   const auto due_after = [&](double interval) {
     due = std::min(due, last_frame_seconds_ + interval);
   };
-  if (frames_due_ > 0) due_after(status_.is_rendering ? tracing_interval : input_interval);
+  const bool has_input = frames_due_ == frames_to_settle;
+  if (frames_due_ > 0) {
+    due_after(status_.is_rendering && !has_input ? tracing_interval : input_interval);
+  }
   if (has_news_ || screenshots_.is_busy()) due_after(tracing_interval);
   if (is_job_running()) due_after(job_interval);
   if (!toast_.empty()) due = std::min(due, toast_end_seconds_);

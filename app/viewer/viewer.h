@@ -46,6 +46,7 @@ class Viewer {
   std::optional<tracer::View> find_view();
   void open(const std::filesystem::path& path);
   void send_edits();
+  void answer_edits();
 
   // What the user does. viewer_input.cpp
   void handle_input(std::span<const InputEvent> input);

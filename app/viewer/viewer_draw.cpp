@@ -79,6 +79,7 @@ void Viewer::draw_header(const Ui& ui) {
 void Viewer::draw_panel(const Ui& ui) {
   if (!is_panel_shown_) {
     draw_panel_button(ui);
+    answer_edits();
     return;
   }
   const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -99,6 +100,7 @@ void Viewer::draw_panel(const Ui& ui) {
     ui.layout.note_last_item("show-warnings");
   }
   draw_settings(ui, settings_);
+  answer_edits();
   draw_statistics(ui, status_, settings_.sample_limit);
   ImGui::End();
 }

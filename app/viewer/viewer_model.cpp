@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Viewer: models, tiles and news from the session, edits to it.
+#include <chrono>
 #include <cstdio>
 #include <system_error>
+#include <thread>
 
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
@@ -108,6 +110,20 @@ void Viewer::send_edits() {
                 .layout = settings_.layout,
                 .build = settings_.build,
                 .sample_limit = settings_.sample_limit});
+}
+
+// Edits are sent, and what answers them soon is awaited, so that this frame shows it: a frame is
+// rather a little late than the picture a frame behind the mouse.
+void Viewer::answer_edits() {
+  constexpr double patience_seconds = 1.0 / 120;
+  constexpr auto pause = std::chrono::microseconds(300);
+  const bool was_answered = status_.is_answered && !is_job_running();
+  send_edits();
+  if (!was_answered) return;
+  const double end_seconds = glfwGetTime() + patience_seconds;
+  for (take_update(); !status_.is_answered && glfwGetTime() < end_seconds; take_update()) {
+    std::this_thread::sleep_for(pause);
+  }
 }
 
 }  // namespace app

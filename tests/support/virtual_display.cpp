@@ -14,7 +14,7 @@ namespace tests {
 namespace {
 
 /// The 32-bit word at `index` of an XWD header, big-endian.
-uint32_t header_word(const std::string& bytes, size_t index) {
+uint32_t header_word(const char* bytes, size_t index) {
   uint32_t word = 0;
   for (size_t i = 0; i < 4; ++i) word = word << 8 | static_cast<uint8_t>(bytes[4 * index + i]);
   return word;
@@ -38,6 +38,14 @@ std::string find_program(const std::string& name) {
   return {};
 }
 
+// A header, a color map of 12-byte entries, rows of BGRX, X being 0.
+ScreenFormat parse_screen_format(const char* bytes) {
+  const size_t header_bytes = header_word(bytes, 0);
+  const size_t color_count = header_word(bytes, 19);
+  return {static_cast<int>(header_word(bytes, 4)), static_cast<int>(header_word(bytes, 5)),
+          header_bytes + 12 * color_count, header_word(bytes, 12)};
+}
+
 VirtualDisplay::VirtualDisplay() {
   int number_pipe[2];
   if (pipe(number_pipe) != 0) return;
@@ -48,7 +56,7 @@ VirtualDisplay::VirtualDisplay() {
     dup2(silence, STDERR_FILENO);
     const std::string pipe_end = std::to_string(number_pipe[1]);
     execlp("Xvfb", "Xvfb", "-displayfd", pipe_end.c_str(), "-screen", "0", "1280x800x24", "-fbdir",
-           folder_.path().c_str(), "-nolisten", "tcp", nullptr);
+           folder_.path().c_str(), "-nocursor", "-nolisten", "tcp", nullptr);
     _exit(127);
   }
   close(number_pipe[1]);
@@ -69,18 +77,13 @@ VirtualDisplay::~VirtualDisplay() {
 }
 
 Screen VirtualDisplay::capture() const {
-  // The server's file is an XWD: a header, a color map of 12-byte entries, rows of BGRX, X being 0.
-  const std::string bytes = read_file(folder_.path() / "Xvfb_screen0");
-  const size_t header_bytes = header_word(bytes, 0);
-  const size_t row_bytes = header_word(bytes, 12);
-  const size_t color_count = header_word(bytes, 19);
-  Screen screen;
-  screen.width = static_cast<int>(header_word(bytes, 4));
-  screen.height = static_cast<int>(header_word(bytes, 5));
+  const std::string bytes = read_file(pixel_file());
+  const ScreenFormat format = parse_screen_format(bytes.data());
+  Screen screen{format.width, format.height, {}};
   screen.pixels.resize(static_cast<size_t>(screen.width) * screen.height);
   for (int y = 0; y < screen.height; ++y) {
     std::memcpy(&screen.pixels[static_cast<size_t>(y) * screen.width],
-                &bytes[header_bytes + 12 * color_count + y * row_bytes],
+                &bytes[format.pixels_offset_bytes + y * format.row_bytes],
                 screen.width * sizeof(uint32_t));
   }
   return screen;

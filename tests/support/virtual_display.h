@@ -22,11 +22,21 @@ struct Screen {
   uint32_t at(int x, int y) const { return pixels[static_cast<size_t>(y) * width + x]; }
 };
 
+/// Of the server's file, an XWD: where its rows of 4-byte pixels begin, and how far they are apart.
+struct ScreenFormat {
+  int width = 0;
+  int height = 0;
+  size_t pixels_offset_bytes = 0;
+  size_t row_bytes = 0;
+};
+/// `bytes` holds the file's first 80 bytes at least.
+ScreenFormat parse_screen_format(const char* bytes);
+
 /// The path of a program of that name; empty when there is none.
 std::string find_program(const std::string& name);
 
-/// An X server without a screen, 1280x800, for as long as this object lives. Sets DISPLAY, and
-/// software OpenGL on one thread, in this process's environment.
+/// An X server without a screen or a visible cursor, 1280x800, for as long as this object lives.
+/// Sets DISPLAY, and software OpenGL on one thread, in this process's environment.
 class VirtualDisplay {
  public:
   VirtualDisplay();
@@ -37,6 +47,8 @@ class VirtualDisplay {
   bool is_running() const { return !name_.empty(); }
   /// What is on the screen at this moment.
   Screen capture() const;
+  /// The server's own pixels, as they change: an XWD file.
+  std::filesystem::path pixel_file() const { return folder_.path() / "Xvfb_screen0"; }
 
  private:
   TemporaryFolder folder_;  // the server keeps its pixels there

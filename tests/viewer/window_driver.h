@@ -13,17 +13,13 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "tests/support/run_program.h"
 #include "tests/support/virtual_display.h"
+#include "tests/support/widget_layout.h"
 
 namespace tests {
-
-struct Rectangle {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-};
 
 /// Runs the real program in a window of its own display, moves the real mouse, looks at pixels.
 class WindowTest : public testing::Test {
@@ -58,11 +54,7 @@ class WindowTest : public testing::Test {
   }
 
   std::optional<Rectangle> find_widget(const std::string& name) const {
-    std::ifstream file(folder_ / "layout.json");
-    const auto json = nlohmann::json::parse(file, nullptr, false);
-    if (!json.is_object() || !json.contains(name)) return std::nullopt;
-    const auto& at = json[name];
-    return Rectangle{at[0], at[1], at[2], at[3]};
+    return tests::find_widget(folder_ / "layout.json", name);
   }
   testing::AssertionResult wait_for_widget(const std::string& name) const {
     return wait_until([&] { return find_widget(name).has_value(); }) << " widget " << name;

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "tests/bench/compare/options.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace bench {
+namespace {
+
+std::string list_of_scenes() {
+  std::string list;
+  for (const SceneEntry& entry : scene_entries()) {
+    list += fmt::format("  {:<8} {}\n", entry.name, entry.what);
+  }
+  return list;
+}
+
+}  // namespace
+
+std::optional<Options> parse_options(int argument_count, char** arguments) {
+  Options options;
+  bool is_quick = false;
+  bool has_all_builders = false;
+  CLI::App app("Compares Boxwood with Embree, and measures what a user waits for");
+  app.footer("Scenes:\n" + list_of_scenes());
+  app.add_option("command", options.command, "rays, build or orbit")
+      ->required()
+      ->check(CLI::IsMember({"rays", "build", "orbit"}));
+  app.add_option("scenes,--scenes", options.scenes, "names, separated by commas")->delimiter(',');
+  app.add_flag("--quick", is_quick, "few small scenes, 3 repeats: done in a minute");
+  app.add_flag("--builders", has_all_builders, "rays: trace the trees of every builder");
+  CLI::Option* repeats =
+      app.add_option("--repeats", options.repeat_count, "rounds")->check(CLI::Range(1, 1000));
+  app.add_option("--seconds", options.seconds_a_run, "rays: of one run, at most")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--folder", options.folder, "where files are written");
+  try {
+    app.parse(argument_count, arguments);
+  } catch (const CLI::CallForHelp&) {
+    fmt::print("{}", app.help());
+    return std::nullopt;
+  }
+  if (is_quick) options.effort = Effort::quick;
+  if (is_quick && repeats->count() == 0) options.repeat_count = 3;
+  if (has_all_builders) options.builders = BuilderChoice::all;
+  for (const std::string& name : options.scenes) {
+    if (find_scene_entry(name) == nullptr) {
+      throw std::invalid_argument("there is no scene '" + name + "'; there are:\n" +
+                                  list_of_scenes());
+    }
+  }
+  return options;
+}
+
+std::vector<const SceneEntry*> chosen_scenes(const Options& options) {
+  std::vector<const SceneEntry*> chosen;
+  for (const SceneEntry& entry : scene_entries()) {
+    const bool is_default = options.effort == Effort::full || entry.is_in_quick;
+    const bool is_chosen = options.scenes.empty() ? is_default
+                                                  : std::ranges::find(options.scenes, entry.name) !=
+                                                        options.scenes.end();
+    if (is_chosen) chosen.push_back(&entry);
+  }
+  return chosen;
+}
+
+std::optional<Scene> make_scene(const SceneEntry& entry, Effort effort) {
+  std::optional<Scene> scene = entry.make(entry.name, effort);
+  if (!scene) fmt::print("{}: SKIPPED, its model is missing\n", entry.name);
+  return scene;
+}
+
+}  // namespace bench

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/bench/compare/scenes.h"
+
+namespace bench {
+
+enum class BuilderChoice { standard, all };
+
+struct Options {
+  std::string command;              // rays, build or orbit
+  std::vector<std::string> scenes;  // empty: all, or those of a quick run
+  Effort effort = Effort::full;
+  int repeat_count = 5;
+  BuilderChoice builders = BuilderChoice::standard;
+  double seconds_a_run = 0.4;  // rays are thinned until a run of the slowest takes no more
+  std::filesystem::path folder = "build/bench";  // of the files it writes
+};
+
+/// Nothing where only help was asked for. Throws CLI::Error, std::invalid_argument.
+std::optional<Options> parse_options(int argument_count, char** arguments);
+
+/// The scenes that were chosen, in the table's order.
+std::vector<const SceneEntry*> chosen_scenes(const Options& options);
+
+/// Makes it, and says where it is missing.
+std::optional<Scene> make_scene(const SceneEntry& entry, Effort effort);
+
+}  // namespace bench
