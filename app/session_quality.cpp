@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::chrono::milliseconds rest{300};
 // About a tenth of the share of a thread that traces.
-constexpr int niceness = 10;
+constexpr int niceness = 19;
 
 }  // namespace
 

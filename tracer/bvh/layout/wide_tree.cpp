@@ -96,9 +96,9 @@ class Collapse {
     }
   }
 
-  // Few primitives always become one block: there is nothing to gain by a split.
+  // What fits into one block becomes one: a split of it gains nothing and costs memory.
   bool is_block(uint32_t node) const {
-    return tree_.nodes[node].is_leaf() || counts_[node] <= std::max(width_ / 2, 4u);
+    return tree_.nodes[node].is_leaf() || counts_[node] <= width_;
   }
 
   float area(uint32_t node) const {
@@ -150,12 +150,7 @@ class Collapse {
       }
     }
     costs[0] = area(node) * node_cost + costs[width_ - 1];
-    if (counts_[node] <= width_) costs[0] = std::min(costs[0], block_costs(node));
     for (size_t k = 1; k < width_; ++k) costs[k] = std::min(costs[k], costs[k - 1]);
-  }
-
-  bool becomes_leaf(uint32_t node) const {
-    return is_block(node) || (counts_[node] <= width_ && costs_[node][0] == block_costs(node));
   }
 
   // The subtree as at most `child_count` children.
@@ -181,7 +176,7 @@ class Collapse {
 
   Children children_of(uint32_t node) const {
     // A root that is a leaf becomes the one child of a node.
-    if (becomes_leaf(node)) return {{node}, 1};
+    if (is_block(node)) return {{node}, 1};
     Children children;
     split_children(node, width_, children);
     return children;
@@ -193,7 +188,7 @@ class Collapse {
     const Children children = children_of(node);
     const auto plan_child = [&](size_t i) {
       const uint32_t child = children.nodes[i];
-      totals_[child] = becomes_leaf(child) ? Totals{0, block_count(child)} : plan_node(child);
+      totals_[child] = is_block(child) ? Totals{0, block_count(child)} : plan_node(child);
     };
     for_each_child(node, children, plan_child);
     Totals totals{1, 0};
@@ -230,8 +225,8 @@ class Collapse {
       }
       WideChild link = WideChild::node(0);
       if (is_used) {
-        link = becomes_leaf(child) ? WideChild::leaf(static_cast<uint32_t>(next.blocks))
-                                   : WideChild::node(static_cast<uint32_t>(next.nodes));
+        link = is_block(child) ? WideChild::leaf(static_cast<uint32_t>(next.blocks))
+                               : WideChild::node(static_cast<uint32_t>(next.nodes));
         places[lane] = next;
         next.nodes += totals_[child].nodes;
         next.blocks += totals_[child].blocks;
@@ -240,7 +235,7 @@ class Collapse {
     }
     for_each_child(node, children, [&](size_t i) {
       const uint32_t child = children.nodes[i];
-      if (becomes_leaf(child)) {
+      if (is_block(child)) {
         fill_leaf(child, places[i].blocks);
       } else {
         fill_node(child, places[i]);
@@ -313,7 +308,7 @@ class Collapse {
 
   void report(const Children& children, uint32_t node) {
     uint32_t placed = 0;
-    for (const uint32_t child : children) placed += becomes_leaf(child) ? counts_[child] : 0;
+    for (const uint32_t child : children) placed += is_block(child) ? counts_[child] : 0;
     const uint32_t all = placed_.fetch_add(placed, std::memory_order_relaxed) + placed;
     if (node == 0 || counts_[node] > 1024) {
       progress_.set_fraction(static_cast<double>(all) / counts_[0]);

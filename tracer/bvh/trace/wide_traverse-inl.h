@@ -63,10 +63,9 @@ constexpr size_t blocks_a_look = 256;
 /// What of a ray the slab tests and the triangle filter need, computed once.
 struct RayConstants {
   // One lane an axis, and one unused.
-  alignas(16) float near_inverse[4];
-  alignas(16) float near_offset[4];  // near plane * near_inverse + it <= true distance * (1 + 3u)
-  alignas(16) float far_inverse[4];
-  alignas(16) float far_offset[4];   // far plane * far_inverse + it >= true distance * (1 + 4u)
+  alignas(16) float inverse[4];
+  alignas(16) float near_offset[4];  // near plane * inverse + near_offset <= true distance
+  alignas(16) float far_offset[4];   // far plane * inverse + far_offset >= true distance
   alignas(16) uint32_t near_row[4];  // of a node, in floats: min, or max for a negative direction
   alignas(16) uint32_t far_row[4];
   uint32_t row_x, row_y, row_z;  // of a vertex in a block; z: the direction's largest component
@@ -91,12 +90,12 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& ray, RayConstants& c) {
   const Vec3f& o = ray.origin;
   const Vec3f& direction = ray.direction;
   // In registers: a load of what was stored in smaller parts would wait for the stores.
-  const auto lanes = [&](const Vec3f& v) {
-    return hn::ConcatLowerLower(d4, hn::Set(d4, v.z),
+  const auto lanes = [&](const Vec3f& v, float unused) {
+    return hn::ConcatLowerLower(d4, hn::InterleaveLower(d4, hn::Set(d4, v.z), hn::Set(d4, unused)),
                                 hn::InterleaveLower(d4, hn::Set(d4, v.x), hn::Set(d4, v.y)));
   };
-  const auto origin = lanes(o);
-  const auto component = lanes(direction);
+  const auto origin = lanes(o, 0);
+  const auto component = lanes(direction, greatest_coordinate);
   const auto size = hn::Abs(component);
 
   // Of all coordinates that meet in a slab test.
@@ -110,20 +109,21 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& ray, RayConstants& c) {
         c.largest_component < greatest_coordinate && c.largest_component > least_coordinate))
     return false;
   c.slack = 32 * u * reach;
+  auto inverse = hn::Div(hn::Set(d4, 1.0f), component);
+  auto pad = hn::Mul(hn::Abs(inverse), hn::Set(d4, 8 * u * reach));
   // A component so small that it moves the ray by less than the slack within the scene counts as
   // this small, and its slab is widened to last for all distances that matter.
   const auto smallest = hn::Set(d4, 0x1p-40f * c.largest_component);
   const auto is_parallel = hn::Lt(size, smallest);
-  const auto inverse = hn::Div(hn::Set(d4, 1.0f), hn::CopySign(hn::Max(size, smallest), component));
+  if (HWY_UNLIKELY(!hn::AllFalse(d4, is_parallel))) {
+    inverse = hn::Div(hn::Set(d4, 1.0f), hn::CopySign(hn::Max(size, smallest), component));
+    pad = hn::Mul(hn::Abs(inverse), hn::IfThenElse(is_parallel, hn::Set(d4, 16 * u * reach),
+                                                   hn::Set(d4, 8 * u * reach)));
+  }
   const auto offset = hn::Neg(hn::Mul(origin, inverse));
-  const auto pad =
-      hn::Mul(hn::IfThenElse(is_parallel, hn::Set(d4, 16 * u * reach), hn::Set(d4, 8 * u * reach)),
-              hn::Abs(inverse));
-  const auto widened = hn::Set(d4, 1 + 8 * u);
-  hn::Store(inverse, d4, c.near_inverse);
+  hn::Store(inverse, d4, c.inverse);
   hn::Store(hn::Sub(offset, pad), d4, c.near_offset);
-  hn::Store(hn::Mul(inverse, widened), d4, c.far_inverse);
-  hn::Store(hn::Mul(hn::Add(offset, pad), widened), d4, c.far_offset);
+  hn::Store(hn::Add(offset, pad), d4, c.far_offset);
   const auto min_row = hn::Mul(hn::Iota(du4, 0), hn::Set(du4, 2 * width));
   const auto max_row = hn::Add(min_row, hn::Set(du4, width));
   const auto is_negative = hn::MaskFromVec(hn::BitCast(
@@ -142,8 +142,8 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& ray, RayConstants& c) {
   c.origin_x = o[x];
   c.origin_y = o[y];
   c.origin_z = o[z];
-  c.shear_x = direction[x] * c.near_inverse[z];
-  c.shear_y = direction[y] * c.near_inverse[z];
+  c.shear_x = direction[x] * c.inverse[z];
+  c.shear_y = direction[y] * c.inverse[z];
   c.toward = std::copysign(1.0f, direction[z]);
   const auto t_min = static_cast<float>(ray.t_min);
   c.t_min = std::max(0.0f, t_min - std::abs(t_min) * 2 * u);
@@ -181,7 +181,7 @@ HWY_INLINE void prefetch(const WideTree& tree, const WideChild* children, uint32
 }
 
 /// Pushes the children whose boxes the ray may meet before t_far, so that the nearest is popped
-/// first if `is_sorted`. t_far: the distance to stop at, times 1 + 8u.
+/// first if `is_sorted`. t_far: the distance to stop at, times 1 + 2u.
 template <bool is_sorted>
 HWY_INLINE StackEntry* push_children(const WideTree& tree, const float* HWY_RESTRICT node,
                                      const RayConstants& c, float t_far,
@@ -189,11 +189,11 @@ HWY_INLINE StackEntry* push_children(const WideTree& tree, const float* HWY_REST
   const Floats d;
   const size_t width = hn::Lanes(d);
   const auto near_plane = [&](int axis) {
-    return hn::MulAdd(hn::Load(d, node + c.near_row[axis]), hn::Set(d, c.near_inverse[axis]),
+    return hn::MulAdd(hn::Load(d, node + c.near_row[axis]), hn::Set(d, c.inverse[axis]),
                       hn::Set(d, c.near_offset[axis]));
   };
   const auto far_plane = [&](int axis) {
-    return hn::MulAdd(hn::Load(d, node + c.far_row[axis]), hn::Set(d, c.far_inverse[axis]),
+    return hn::MulAdd(hn::Load(d, node + c.far_row[axis]), hn::Set(d, c.inverse[axis]),
                       hn::Set(d, c.far_offset[axis]));
   };
   const auto near =
@@ -355,7 +355,7 @@ HWY_INLINE bool traverse(const WideTree& tree, const Ray& ray, const StopFlag& s
   StackEntry stack[stack_capacity];
   StackEntry* top = stack;
   StackEntry current{WideChild::node(0), std::bit_cast<uint32_t>(constants.t_min)};
-  float t_far = round_up(ray.t_max) * (1 + 8 * u);
+  float t_far = round_up(ray.t_max) * (1 + 2 * u);
   for (;;) {
     while (!current.child.is_leaf()) {
       probe.node();
@@ -395,7 +395,7 @@ HWY_INLINE bool traverse(const WideTree& tree, const Ray& ray, const StopFlag& s
           }
           if (hit.is_closer_than(best)) {
             best = hit;
-            t_far = std::min(t_far, round_up(hit.t) * (1 + 8 * u));
+            t_far = std::min(t_far, round_up(hit.t) * (1 + 2 * u));
           }
         }
         if (info.is_last) break;
