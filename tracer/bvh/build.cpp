@@ -10,6 +10,9 @@ namespace tracer {
 namespace {
 
 constexpr std::array table{
+    Builder{"binned-sah", "SAH, binned",
+            "Takes the cheapest of a few planes by surface area: quick to build, fast to trace.",
+            build_binned_sah},
     Builder{"median", "Spatial median",
             "Halves each box across its longest side: quick to build, slow to trace.",
             build_median},

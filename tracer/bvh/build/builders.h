@@ -19,4 +19,10 @@ BvhTree build_median(const Primitives& primitives, const BuildSettings& settings
 BvhTree build_sweep_sah(const Primitives& primitives, const BuildSettings& settings,
                         Progress& progress);
 
+/// Tries the planes between equal bins over the bounds of the centres on all three axes, and below
+/// a few dozen primitives every plane; the most even of equals. [Wald 2007] Leaves and depth as
+/// build_sweep_sah.
+BvhTree build_binned_sah(const Primitives& primitives, const BuildSettings& settings,
+                         Progress& progress);
+
 }  // namespace tracer
