@@ -19,6 +19,9 @@ constexpr std::array table{
     Builder{"sweep-sah", "SAH, full sweep",
             "Takes the plane of least surface area cost of all: slower to build, fast to trace.",
             build_sweep_sah},
+    Builder{"morton", "Morton, quick",
+            "Sorts along a space-filling curve: quickest to build, for settings being dragged.",
+            build_morton},
 };
 
 }  // namespace
