@@ -169,6 +169,27 @@ TEST(Builders, binned_sah_costs_at_most_two_percent_more_than_the_sweep_on_model
   }
 }
 
+TEST(Builders, morton_costs_no_more_than_a_third_above_the_sweep) {
+  for (const Mesh& mesh : {rough_ball(60, 0.02f, 1), random_soup(50000, 0.01f, 3)}) {
+    const std::vector<Box> boxes = primitive_boxes(mesh);
+    EXPECT_LE(sah_cost("morton", boxes), 4.0 / 3 * sah_cost("sweep-sah", boxes));
+  }
+}
+
+TEST(Builders, morton_parts_what_lies_in_one_cell_of_its_curve) {
+  // All but one box in a billionth of the bounds.
+  std::vector<Box> boxes = primitive_boxes(random_soup(5000, 0.01f, 3));
+  for (Box& box : boxes) box = {0x1p-30f * box.min, 0x1p-30f * box.max};
+  const double alone = sah_cost("morton", boxes);
+  boxes.push_back(box_at(Vec3f(1), 0.5f));
+  BvhTree tree = build(*find_builder("morton"), boxes, {});
+  ASSERT_EQ(tree.nodes[2].count, 1u);
+  // What is below the left child, as a tree of its own; empty leaves cost nothing.
+  tree.nodes[0] = tree.nodes[1];
+  tree.nodes[1] = tree.nodes[2] = {Box(), 0, 1};
+  EXPECT_DOUBLE_EQ(measure(tree).sah_cost, alone);
+}
+
 TEST(Builders, binned_sah_of_few_primitives_is_the_full_sweep) {
   for (uint32_t count = 1; count <= 32; ++count) {
     const std::vector<Box> boxes = primitive_boxes(random_soup(count, 0.5f, count));

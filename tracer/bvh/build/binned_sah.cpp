@@ -3,20 +3,15 @@
 #include <memory>
 #include <tuple>
 
-#include "tracer/base/parallel.h"
 #include "tracer/base/scratch_array.h"
 #include "tracer/bvh/build/bins.h"
 #include "tracer/bvh/build/builders.h"
+#include "tracer/bvh/build/chunks.h"
 #include "tracer/bvh/build/small_sweep.h"
-#include "tracer/bvh/build/subdivide.h"
 #include "tracer/bvh/build/tree_part.h"
 
 namespace tracer {
 namespace {
-
-// All sizes are functions of the range alone, so that the tree does not depend on the threads.
-constexpr uint32_t chunk_size = 32768;  // binned and moved by one task at a time
-constexpr uint32_t task_size = 8192;    // split by one task to the end
 
 // A node before it is split. Its references are in one of two buffers, at positions `range`.
 struct Part {
@@ -65,12 +60,11 @@ class BinnedBuild {
 
  private:
   Part make_root() {
-    const uint32_t chunk_count = (count_ + chunk_size - 1) / chunk_size;
-    std::vector<std::array<Box4, 2>> bounds(chunk_count);
-    for_each_chunk(chunk_count, [&](uint32_t chunk) {
+    const PrimitiveRange range{0, count_};
+    std::vector<std::array<Box4, 2>> bounds(chunk_count(range));
+    for_each_chunk(range, progress_, [&](uint32_t chunk, PrimitiveRange part) {
       Box4 all, half_centers;
-      const uint32_t end = std::min((chunk + 1) * chunk_size, count_);
-      for (uint32_t i = chunk * chunk_size; i < end; ++i) {
+      for (uint32_t i = part.begin; i < part.end; ++i) {
         const Reference reference(boxes_[i], i);
         buffers_[0][i] = reference;
         const Box4 box = reference.box();
@@ -79,7 +73,7 @@ class BinnedBuild {
       }
       bounds[chunk] = {all, half_centers};
     });
-    Part root{{0, count_}, 0, 0, Box4(), Box4()};
+    Part root{range, 0, 0, Box4(), Box4()};
     for (const auto& [all, half_centers] : bounds) {
       root.bounds.extend(all);
       root.half_centers.extend(half_centers);
@@ -90,7 +84,7 @@ class BinnedBuild {
   void build_part(const Part& part, TreePart& tree) {
     if (part.range.count() <= task_size || is_leaf(part)) {
       progress_.throw_if_stopped();
-      tree.nodes.reserve(1 + 3 * part.range.count() / static_cast<uint32_t>(leaf_size_));
+      tree.nodes.reserve(likely_node_count(part.range.count(), leaf_size_));
       tree.nodes.resize(1);
       subdivide(part, tree.nodes, 0);
       report_placed(part.range.count());
@@ -130,23 +124,21 @@ class BinnedBuild {
   std::array<Part, 2> split(const Part& part) {
     const Binning binning(part.half_centers, bin_count(part.range.count()));
     if (!binning.parts_something()) return halve(part);
-    if (part.range.count() <= chunk_size) {
+    const uint32_t count = chunk_count(part.range);
+    if (count == 1) {
       Chunk chunk;
       return split(part, binning, {&chunk, 1});
     }
-    const uint32_t chunk_count = (part.range.count() + chunk_size - 1) / chunk_size;
-    const auto chunks = std::make_unique_for_overwrite<Chunk[]>(chunk_count);
-    return split(part, binning, {chunks.get(), chunk_count});
+    const auto chunks = std::make_unique_for_overwrite<Chunk[]>(count);
+    return split(part, binning, {chunks.get(), count});
   }
 
   std::array<Part, 2> split(const Part& part, const Binning& binning, std::span<Chunk> chunks) {
-    const auto chunk_count = static_cast<uint32_t>(chunks.size());
-    for_each_chunk(chunk_count, [&](uint32_t i) {
+    for_each_chunk(part.range, progress_, [&](uint32_t i, PrimitiveRange range) {
       Chunk& chunk = chunks[i];
-      chunk.range.begin = part.range.begin + i * chunk_size;
-      chunk.range.end = std::min(chunk.range.begin + chunk_size, part.range.end);
+      chunk.range = range;
       chunk.bins.clear(binning.bin_count());
-      chunk.bins.add({&buffers_[part.buffer][chunk.range.begin], chunk.range.count()}, binning);
+      chunk.bins.add({&buffers_[part.buffer][range.begin], range.count()}, binning);
     });
     std::unique_ptr<Bins> sum;
     if (chunks.size() > 1) {
@@ -168,7 +160,8 @@ class BinnedBuild {
       left_begin += left_count;
       right_begin += chunk.range.count() - left_count;
     }
-    for_each_chunk(chunk_count, [&](uint32_t i) { move(part, binning, split, chunks[i]); });
+    for_each_chunk(part.range, progress_,
+                   [&](uint32_t i, PrimitiveRange) { move(part, binning, split, chunks[i]); });
 
     const std::array<Box4, 2> bounds = bins.side_bounds(split);
     std::array<Part, 2> sides = empty_sides(part, middle);
@@ -232,20 +225,6 @@ class BinnedBuild {
     std::array<Part, 2> sides{empty, empty};
     sides[0].range.end = sides[1].range.begin = middle;
     return sides;
-  }
-
-  // Calls f(i) for each chunk, in parallel where there are several.
-  template <class F>
-  void for_each_chunk(uint32_t chunk_count, F&& f) {
-    if (chunk_count == 1) return f(0);
-    std::atomic<uint32_t> done_count{0};
-    parallel_for_each_index(0, chunk_count, [&](size_t i) {
-      progress_.throw_if_stopped();
-      f(static_cast<uint32_t>(i));
-      ++done_count;
-    });
-    // Tasks are skipped, without an exception here, once one elsewhere has thrown.
-    if (done_count != chunk_count) throw Cancelled{};
   }
 
   int bin_count(uint32_t count) const {

@@ -11,8 +11,6 @@
 namespace tracer {
 namespace {
 
-constexpr uint32_t task_size = 8192;  // split by one task to the end; a function of the range alone
-
 // Cells along each axis, over the bounds of half centres.
 constexpr int cells_a_side = 1024;
 
@@ -76,8 +74,8 @@ class MortonBuild {
  private:
   static constexpr double sorted_fraction = 0.4;  // of the time
 
-  // Sorts the range by a curve over its own bounds. False where no curve can tell its centres
-  // apart: the order is then by primitive or as it was.
+  // Sorts the range by a curve over its own bounds. False where that tells none of its centres
+  // from another: the order is then as it was.
   bool sort_along_curve(PrimitiveRange range) {
     std::vector<Box4> bounds(chunk_count(range));
     for_each_chunk(range, progress_, [&](uint32_t chunk, PrimitiveRange part) {
@@ -88,17 +86,19 @@ class MortonBuild {
     for (const Box4& part : bounds) bounds[0].extend(part);
     const CurveGrid grid(bounds[0]);
     for_each_chunk(range, progress_, [&](uint32_t, PrimitiveRange part) {
-      for (uint32_t i = part.begin; i < part.end; ++i) keys_[i].code = grid.code(box(i));
+      for (uint32_t i = part.begin; i < part.end; ++i) {
+        scratch_[i] = {grid.code(box(i)), keys_[i].primitive};
+      }
     });
-    if (!grid.parts_something()) return false;
-    radix_sort({keys_.data(), count_}, {scratch_.data(), count_}, range, progress_);
-    return true;
+    radix_sort({scratch_.data(), count_}, {keys_.data(), count_}, range, progress_);
+    return grid.parts_something();
   }
 
   Box4 build_part(PrimitiveRange range, int depth, TreePart& part) {
     if (range.count() <= task_size || is_leaf(range, depth)) {
       progress_.throw_if_stopped();
-      part.nodes.reserve(2 + 4 * range.count() / static_cast<uint32_t>(leaf_size_));
+      fetch(range);
+      part.nodes.reserve(likely_node_count(range.count(), leaf_size_));
       part.nodes.resize(1);
       const Box4 bounds = subdivide(range, depth, part.nodes, 0);
       report_placed(range.count());
@@ -117,6 +117,12 @@ class MortonBuild {
     bounds.extend(right_bounds);
     part.nodes = {{bounds.box()}};
     return bounds;
+  }
+
+  // Into the cache, in one go: searches and leaves would wait for each in turn.
+  void fetch(PrimitiveRange range) const {
+    for_each_position(range, progress_,
+                      [&](uint32_t i) { __builtin_prefetch(&boxes_[keys_[i].primitive]); });
   }
 
   // Turns nodes[node] into the root over the range and appends what is below it.
@@ -151,14 +157,21 @@ class MortonBuild {
 
   uint32_t first_with_highest_differing_bit(PrimitiveRange range) const {
     const uint32_t bit = std::bit_floor(differing_bits(range));
-    const CurveKey* first =
-        std::partition_point(&keys_[range.begin], &keys_[range.end - 1],
-                             [bit](const CurveKey& key) { return (key.code & bit) == 0; });
-    return static_cast<uint32_t>(first - keys_.data());
+    const auto is_left = [&](uint32_t i) { return (keys_[i].code & bit) == 0; };
+    uint32_t first = range.begin;
+    uint32_t count = range.count();
+    // Without a branch: which half it is cannot be predicted.
+    while (count > 8) {
+      const uint32_t half = count / 2;
+      first += is_left(first + half - 1) ? half : 0;
+      count -= half;
+    }
+    uint32_t left_count = 0;
+    for (uint32_t i = first; i < first + count; ++i) left_count += is_left(i);
+    return first + left_count;
   }
 
   Box4 box(uint32_t position) const { return Box4(boxes_[keys_[position].primitive]); }
-
   bool is_leaf(PrimitiveRange range, int depth) const {
     return depth >= max_depth_ || range.count() <= static_cast<uint32_t>(leaf_size_);
   }

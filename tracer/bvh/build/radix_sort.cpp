@@ -2,6 +2,8 @@
 #include "tracer/bvh/build/radix_sort.h"
 
 #include <array>
+#include <numeric>
+#include <utility>
 
 #include "tracer/bvh/build/chunks.h"
 
@@ -22,11 +24,14 @@ uint32_t digit(CurveKey key, int place) {
 
 // From counts to where each chunk's first key of each bucket goes.
 void make_offsets(std::vector<Histogram>& histograms, uint32_t first) {
-  for (uint32_t bucket = 0; bucket < bucket_count; ++bucket) {
-    for (Histogram& histogram : histograms) {
-      const uint32_t count = histogram[bucket];
-      histogram[bucket] = first;
-      first += count;
+  Histogram next{};
+  for (const Histogram& histogram : histograms) {
+    for (uint32_t bucket = 0; bucket < bucket_count; ++bucket) next[bucket] += histogram[bucket];
+  }
+  std::exclusive_scan(next.begin(), next.end(), next.begin(), first);
+  for (Histogram& histogram : histograms) {
+    for (uint32_t bucket = 0; bucket < bucket_count; ++bucket) {
+      next[bucket] += std::exchange(histogram[bucket], next[bucket]);
     }
   }
 }
@@ -47,22 +52,19 @@ void sort_by_digit(std::span<const CurveKey> from, std::span<CurveKey> to, int p
 
 }  // namespace
 
-void radix_sort(std::span<CurveKey> keys, std::span<CurveKey> scratch, PrimitiveRange range,
+void radix_sort(std::span<CurveKey> from, std::span<CurveKey> to, PrimitiveRange range,
                 const Progress& progress) {
   if (range.count() < least_count) {
-    std::stable_sort(keys.begin() + range.begin, keys.begin() + range.end,
+    std::copy(from.begin() + range.begin, from.begin() + range.end, to.begin() + range.begin);
+    std::stable_sort(to.begin() + range.begin, to.begin() + range.end,
                      [](CurveKey a, CurveKey b) { return a.code < b.code; });
     return;
   }
+  static_assert(digit_count % 2 == 1);  // so that the last pass ends in `to`
   for (int place = 0; place < digit_count; ++place) {
-    sort_by_digit(keys, scratch, place, range, progress);
-    std::swap(keys, scratch);
+    sort_by_digit(from, to, place, range, progress);
+    std::swap(from, to);
   }
-  // An odd number of passes: the spans are exchanged, and scratch names the caller's keys.
-  static_assert(digit_count % 2 == 1);
-  for_each_chunk(range, progress, [&](uint32_t, PrimitiveRange part) {
-    std::copy(keys.begin() + part.begin, keys.begin() + part.end, scratch.begin() + part.begin);
-  });
 }
 
 }  // namespace tracer

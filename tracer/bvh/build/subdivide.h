@@ -21,6 +21,10 @@ struct PrimitiveRange {
   uint32_t count() const { return end - begin; }
 };
 
+/// Ranges above this size are split in parallel: by the range alone, as the order of nodes depends
+/// on it.
+inline constexpr uint32_t task_size = 8192;
+
 /// Calls f(i) for each i in the range, looking at the stop flag every few thousand.
 template <class F>
 void for_each_position(PrimitiveRange range, const Progress& progress, F&& f) {
@@ -41,6 +45,11 @@ void build_both(TreePart& part, F&& build_left, G&& build_right) {
   parallel_invoke([&] { build_left(*part.left); }, [&] { build_right(*part.right); });
   // Tasks are skipped, without an exception here, once one elsewhere has thrown.
   if (part.left->nodes.empty() || part.right->nodes.empty()) throw Cancelled{};
+}
+
+/// Room for most subtrees that one task makes.
+inline size_t likely_node_count(uint32_t primitive_count, int leaf_size) {
+  return 2 + 4 * std::min(primitive_count, task_size) / static_cast<uint32_t>(leaf_size);
 }
 
 /// Splits ranges until they are small or deep enough. A Splitter has, callable at the same time
@@ -75,10 +84,6 @@ class Subdivision {
   }
 
  private:
-  // Ranges above this size are split in parallel. A function of the range alone, as the order of
-  // nodes depends on it.
-  static constexpr uint32_t task_size = 8192;
-
   void build_part(PrimitiveRange range, int depth, TreePart& part) {
     if (range.count() <= task_size || is_leaf(range, depth)) {
       progress_.throw_if_stopped();
