@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "app/session_changes.h"
 
@@ -19,7 +20,8 @@ std::shared_ptr<const tracer::Accel> build_accel(std::shared_ptr<const tracer::M
   std::optional<tracer::BvhTree> tree;
   if (key.builder != nullptr) {
     progress.start_stage("building the tree");
-    tree = key.builder->build(tracer::primitive_boxes(*mesh), key.settings, progress);
+    const std::vector<tracer::Box> boxes = primitive_boxes(*mesh);
+    tree = key.builder->build(mesh_primitives(*mesh, boxes), key.settings, progress);
   }
   return std::make_shared<const tracer::Accel>(
       make_accel(std::move(mesh), std::move(tree), *key.layout, progress));

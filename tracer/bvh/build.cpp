@@ -16,6 +16,9 @@ constexpr std::array table{
     Builder{"sweep-sah", "SAH, full sweep",
             "Takes the plane of least surface area cost of all: slower to build, fast to trace.",
             build_sweep_sah},
+    Builder{"spatial-split", "SAH, spatial splits",
+            "Cuts triangles that would make boxes overlap: for long, thin and large ones.",
+            build_spatial_split},
 };
 
 }  // namespace

@@ -12,8 +12,9 @@ namespace tracer {
 inline constexpr int max_tree_depth = 64;
 
 struct BuildSettings {
-  int max_depth = 30;  // no leaf lies deeper; the root has depth 0
-  int leaf_size = 4;   // a node of at most this many primitives is not split
+  int max_depth = 30;         // no leaf lies deeper; the root has depth 0
+  int leaf_size = 4;          // a node of at most this many primitives is not split
+  double split_budget = 0.5;  // spatial splits: references beyond the primitives, as part of them
 };
 
 template <class Settings, class F>
@@ -23,6 +24,9 @@ void for_each_field(Settings& settings, F&& f) {
     Field<int>{"max-depth", 1, max_tree_depth, "levels of the tree at most", Effect::rebuild});
   f(settings.leaf_size,
     Field<int>{"leaf-size", 1, 64, "nodes of so few triangles are not split", Effect::rebuild});
+  f(settings.split_budget,
+    Field<double>{"split-budget", 0, 2, "references that spatial splits may add, a triangle",
+                  Effect::rebuild});
 }
 
 }  // namespace tracer

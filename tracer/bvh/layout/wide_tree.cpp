@@ -136,7 +136,11 @@ class Collapse {
     const size_t first_block = block_count_;
     const size_t blocks = block_count_of(node);
     block_count_ += blocks;
-    const Vec3d size = tree_.nodes[node].bounds.extent();
+    Box reach = tree_.nodes[node].bounds;
+    for (uint32_t i = 0; i < ranges_[node].count; ++i) {
+      reach.extend(mesh_.triangle_bounds(tree_.primitives[ranges_[node].first + i]));
+    }
+    const Vec3d size = reach.extent();
     const float extent = std::nextafter(static_cast<float>(std::max({size.x, size.y, size.z})),
                                         std::numeric_limits<float>::infinity());
     const auto width = static_cast<size_t>(wide_.width);
