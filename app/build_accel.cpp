@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "app/session_changes.h"
+#include "tracer/bvh/build/reinsertion.h"
 
 namespace app {
 
 bool is_same_tree(const TreeKey& a, const TreeKey& b) {
   if (a.builder == nullptr && b.builder == nullptr) return true;
   return a.builder == b.builder && a.layout == b.layout &&
+         a.improvement_rounds == b.improvement_rounds &&
          !differs(a.settings, b.settings, tracer::Effect::rebuild);
 }
 
@@ -22,6 +24,10 @@ std::shared_ptr<const tracer::Accel> build_accel(std::shared_ptr<const tracer::M
     progress.start_stage("building the tree");
     const std::vector<tracer::Box> boxes = primitive_boxes(*mesh);
     tree = key.builder->build(mesh_primitives(*mesh, boxes), key.settings, progress);
+    if (key.improvement_rounds > 0) progress.start_stage("improving the tree");
+    for (int round = 0; round < key.improvement_rounds; ++round) {
+      *tree = reinsert(*tree, key.settings, progress);
+    }
   }
   return std::make_shared<const tracer::Accel>(
       make_accel(std::move(mesh), std::move(tree), *key.layout, progress));

@@ -17,7 +17,7 @@
 namespace app {
 namespace {
 
-enum class JobKind { none, load, shade, build };
+enum class JobKind { none, load, shade, build, improve };
 
 /// The job in flight.
 struct Job {
@@ -42,12 +42,15 @@ struct Session::State {
   void load(std::unique_lock<std::mutex>& lock);
   void shade(std::unique_lock<std::mutex>& lock);
   void build(std::unique_lock<std::mutex>& lock);
+  void improve(std::unique_lock<std::mutex>& lock);
   std::shared_ptr<tracer::Progress> begin_job(JobKind kind, std::string path);
   void end_job();
   void set_error(std::string text);
 
   bool wants_shading() const;
   bool wants_tree() const;
+  bool is_wanted(const BuiltTree& built) const;
+  bool wants_improvement();
   bool is_edited_model() const { return model && edits.model_generation == model->generation; }
   std::shared_ptr<const tracer::World> make_world() const;
   void restart_picture();
@@ -103,6 +106,8 @@ void Session::State::run_jobs() {
       shade(lock);
     } else if (wants_tree()) {
       build(lock);
+    } else if (wants_improvement()) {
+      improve(lock);
     } else {
       changed.wait(lock);
     }
@@ -114,8 +119,19 @@ bool Session::State::wants_shading() const {
 }
 
 bool Session::State::wants_tree() const {
-  const TreeKey wanted = tree_key_of(edits);
-  return model && !is_same_tree(wanted, tree.key) && !(declined && is_same_tree(wanted, *declined));
+  return model && !is_wanted(tree) && !(declined && is_same_tree(tree_key_of(edits), *declined));
+}
+
+// Whoever switches improvement off wants the tree as it was built.
+bool Session::State::is_wanted(const BuiltTree& built) const {
+  return is_same_tree(tree_key_of(edits), built.key) &&
+         (edits.improve || built.improvement.rounds == 0);
+}
+
+// Not before there is a picture: the first passes have all threads for themselves.
+bool Session::State::wants_improvement() {
+  return edits.improve && is_edited_model() && tree.accel && tree.accel->tree &&
+         !tree.improvement.is_over && renderer.status().samples > 0;
 }
 
 std::shared_ptr<tracer::Progress> Session::State::begin_job(JobKind kind, std::string path) {
@@ -190,7 +206,7 @@ void Session::State::build(std::unique_lock<std::mutex>& lock) {
   const TreeKey key = job.key;
   const auto mesh = model->scene->mesh;
   std::optional<BuiltTree> built;
-  if (off_tree && is_same_tree(key, off_tree->key)) built = off_tree;
+  if (off_tree && is_wanted(*off_tree)) built = off_tree;
   lock.unlock();
 
   std::string failure;
@@ -215,6 +231,28 @@ void Session::State::build(std::unique_lock<std::mutex>& lock) {
   end_job();
 }
 
+void Session::State::improve(std::unique_lock<std::mutex>& lock) {
+  const auto progress = begin_job(JobKind::improve, {});
+  const BuiltTree before = tree;
+  lock.unlock();
+
+  std::optional<BuiltTree> improved;
+  try {
+    improved = improve_tree(before, *progress);
+  } catch (const tracer::Cancelled&) {
+  } catch (const std::exception&) {
+    improved = before;  // short of memory, the tree stays as it is
+    improved->improvement.is_over = true;
+  }
+
+  lock.lock();
+  if (improved && !progress->stop_requested()) {
+    tree = std::move(*improved);
+    if (tree.accel != before.accel && is_edited_model()) renderer.resume_with(make_world());
+  }
+  end_job();
+}
+
 std::shared_ptr<const tracer::World> Session::State::make_world() const {
   return std::make_shared<const tracer::World>(tracer::World{
       .scene = model->scene,
@@ -235,6 +273,7 @@ Status Session::State::status() {
   status.is_loading = job.kind == JobKind::load || open_request.has_value();
   status.is_building = job.kind == JobKind::build || job.kind == JobKind::shade;
   status.is_rendering = render.is_rendering;
+  status.is_improving = job.kind == JobKind::improve || wants_improvement();
   if (job.progress) {
     status.stage = job.progress->stage();
     status.fraction = job.progress->fraction();
@@ -250,6 +289,8 @@ Status Session::State::status() {
   }
   status.tree = tree.metrics;
   status.build_seconds = tree.seconds;
+  status.improvement_rounds = tree.improvement.rounds;
+  status.first_sah_cost = tree.improvement.first_sah_cost;
   status.mrays_per_second = render.rates.recent_mrays_per_second();
   status.mrays_per_second_bvh = render.rates.mrays_per_second(TraceMode::bvh);
   status.mrays_per_second_brute_force = render.rates.mrays_per_second(TraceMode::brute_force);
@@ -278,6 +319,7 @@ void Session::cancel_job() {
   if (!state_->job.progress) return;
   state_->job.progress->request_stop();
   if (state_->job.kind == JobKind::build) state_->declined = state_->job.key;
+  if (state_->job.kind == JobKind::improve) state_->tree.improvement.is_over = true;
 }
 
 void Session::set(const Edits& edits) {
@@ -291,6 +333,10 @@ void Session::set(const Edits& edits) {
     if (job.kind == JobKind::build && !is_same_tree(job.key, tree_key_of(edits))) {
       job.progress->request_stop();
     }
+    if (job.kind == JobKind::improve &&
+        (!edits.improve || state_->wants_tree() || state_->wants_shading())) {
+      job.progress->request_stop();
+    }
   }
   state_->changed.notify_one();
 }
@@ -301,6 +347,8 @@ Update Session::poll() {
   {
     const std::lock_guard lock(state_->mutex);
     update.status = state_->status();
+    // That there is a picture by now is known here first.
+    if (update.status.is_improving) state_->changed.notify_one();
   }
   TileQueue::Taken taken = state_->renderer.take_tiles();
   update.size_px = taken.size_px;

@@ -32,6 +32,7 @@ struct Edits {
   const tracer::Builder* builder = &tracer::builders().front();  // nullptr: BVH off, brute force
   const tracer::Layout* layout = &tracer::layouts().front();
   tracer::BuildSettings build;
+  bool improve = true;  // the tree by re-insertion, while and after the picture resolves
   int sample_limit = 1024;
 };
 
@@ -40,6 +41,7 @@ struct Status {
   bool is_loading = false;
   bool is_building = false;
   bool is_rendering = false;
+  bool is_improving = false;      // the tree in use, in the background
   std::string stage;              // of the job that runs
   float fraction = 0;             // of the stage
   std::string loading_path;       // while is_loading
@@ -48,7 +50,9 @@ struct Status {
   std::string model_path;         // empty: none yet
   uint64_t model_generation = 0;  // grows with every model that replaces another
   std::shared_ptr<const tracer::ImportedScene> model;
-  tracer::TreeMetrics tree;  // of the tree in use; nodes 0 when the BVH is off
+  tracer::TreeMetrics tree;    // of the tree in use; nodes 0 when the BVH is off
+  int improvement_rounds = 0;  // of re-insertion that the tree in use has gained by
+  double first_sah_cost = 0;   // of the tree in use, as it was built
   double load_seconds = 0;
   double build_seconds = 0;
   double mrays_per_second = 0;              // of the last second of tracing

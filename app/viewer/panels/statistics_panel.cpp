@@ -42,6 +42,13 @@ void draw_speed_up(const Ui& ui, const Status& status) {
                           rate(status.mrays_per_second_brute_force).value));
 }
 
+// By how much the tree in use has become cheaper since it was built.
+Quantity improvement(const Status& status) {
+  if (status.improvement_rounds == 0) return {status.is_improving ? "..." : "–", "%"};
+  const double part = 1 - status.tree.sah_cost / status.first_sah_cost;
+  return {fmt::format("−{:.1f}", 100 * part), "%"};
+}
+
 void draw_tree(const Ui& ui, const Status& status) {
   const tracer::TreeMetrics& tree = status.tree;
   const uint32_t triangle_count = status.model ? status.model->scene.mesh->triangle_count() : 0;
@@ -52,6 +59,7 @@ void draw_tree(const Ui& ui, const Status& status) {
   number_row(ui, "Depth", {has_tree ? std::to_string(tree.depth) : "–", ""});
   number_row(ui, "Largest leaf", count_or_dash(tree.largest_leaf));
   number_row(ui, "SAH cost", {has_tree ? format_three_digits(tree.sah_cost) : "–", ""});
+  number_row(ui, "Improved", improvement(status));
   number_row(ui, "Build", has_tree ? format_seconds(status.build_seconds) : Quantity{"–", "ms"});
   number_row(ui, "Load", status.model ? format_seconds(status.load_seconds) : Quantity{"–", "ms"});
 }
