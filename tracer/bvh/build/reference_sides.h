@@ -2,7 +2,6 @@
 // Sets of references, looked at and parted by several threads with the result of one.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -69,7 +68,7 @@ SideWriter write_sides(std::span<const Reference> references, const SideWriter& 
     for (const Reference& reference : references) route(reference, all);
     return all;
   }
-  std::array<SideCounter, most_chunks> counts;
+  std::vector<SideCounter> counts(most_chunks);
   for_each_chunk(references, progress, [&](size_t chunk, std::span<const Reference> part) {
     for (const Reference& reference : part) route(reference, counts[chunk]);
   });

@@ -98,6 +98,12 @@ class SpatialSplitBuild {
  private:
   using Children = std::array<ReferenceRange, 2>;
 
+  // A task's own, on the heap as it is large.
+  struct Scratch {
+    CenterBins centers;
+    AxisBins space;
+  };
+
   struct Free {
     void operator()(Reference* references) const { std::free(references); }
   };
@@ -126,13 +132,14 @@ class SpatialSplitBuild {
   std::unique_ptr<TreePart> subtree(const ReferenceRange& range, int depth) {
     auto part = std::make_unique<TreePart>();
     part->nodes.resize(1);
+    const auto scratch = std::make_unique<Scratch>();
     if (is_small(references(range, depth)) || is_leaf(range, depth)) {
-      subdivide(*part, 0, range, depth);
+      subdivide(*part, 0, range, depth, *scratch);
       report_placed(range.room());
       return part;
     }
     part->nodes[0].bounds = range.bounds.boxes.box();
-    const Children children = split(range, depth);
+    const Children children = split(range, depth, *scratch);
     parallel_invoke([&] { part->left = subtree(children[0], depth + 1); },
                     [&] { part->right = subtree(children[1], depth + 1); });
     // Tasks are skipped, without an exception here, once one elsewhere has thrown.
@@ -140,7 +147,8 @@ class SpatialSplitBuild {
     return part;
   }
 
-  void subdivide(TreePart& part, size_t node, const ReferenceRange& range, int depth) {
+  void subdivide(TreePart& part, size_t node, const ReferenceRange& range, int depth,
+                 Scratch& scratch) {
     progress_.throw_if_stopped();
     const Box bounds = range.bounds.boxes.box();
     if (is_leaf(range, depth)) {
@@ -150,12 +158,12 @@ class SpatialSplitBuild {
       }
       return;
     }
-    const Children children = split(range, depth);
+    const Children children = split(range, depth, scratch);
     const size_t first = part.nodes.size();
     part.nodes[node] = {bounds, static_cast<uint32_t>(first), 0};
     part.nodes.resize(first + 2);
-    subdivide(part, first, children[0], depth + 1);
-    subdivide(part, first + 1, children[1], depth + 1);
+    subdivide(part, first, children[0], depth + 1, scratch);
+    subdivide(part, first + 1, children[1], depth + 1, scratch);
   }
 
   bool is_leaf(const ReferenceRange& range, int depth) const {
@@ -169,15 +177,14 @@ class SpatialSplitBuild {
     return {static_cast<uint32_t>(std::min<uint64_t>(side, range.room())), range.room()};
   }
 
-  Children split(const ReferenceRange& range, int depth) {
+  Children split(const ReferenceRange& range, int depth, Scratch& scratch) {
     const SplitLimits limits = limits_of(range, depth);
     const CenterGrid centers(range.bounds.centers, center_bin_count(range));
-    const auto bins = gather<CenterBins>(
-        range, depth, centers.bin_count(),
-        [&](CenterBins& into, std::span<const Reference> part) { into.add(part, centers); });
-    const SplitCandidate object = bins.best(centers, limits);
+    gather(scratch.centers, range, depth, centers.bin_count(),
+           [&](CenterBins& into, std::span<const Reference> part) { into.add(part, centers); });
+    const SplitCandidate object = scratch.centers.best(centers, limits);
     if (is_worth_cutting(range, object)) {
-      const Children cut = cut_space(range, depth, limits, object);
+      const Children cut = cut_space(scratch.space, range, depth, limits, object);
       if (cut[0].count() > 0 && cut[1].count() > 0) return cut;
     }
     if (!object.exists()) return halve(range, depth);
@@ -192,7 +199,7 @@ class SpatialSplitBuild {
   }
 
   static int center_bin_count(const ReferenceRange& range) {
-    return static_cast<int>(std::clamp(range.count(), 8u, uint32_t{most_bins}));
+    return static_cast<int>(std::clamp(range.count() / 2, 8u, uint32_t{most_bins}));
   }
 
   bool is_worth_cutting(const ReferenceRange& range, const SplitCandidate& object) const {
@@ -205,14 +212,14 @@ class SpatialSplitBuild {
   }
 
   // Two empty children where no cut costs less.
-  Children cut_space(const ReferenceRange& range, int depth, const SplitLimits& limits,
-                     const SplitCandidate& object) {
+  Children cut_space(AxisBins& bins, const ReferenceRange& range, int depth,
+                     const SplitLimits& limits, const SplitCandidate& object) {
     const SpaceGrid grid(range.bounds.boxes.box());
     if (grid.planes().empty()) return {};
-    const auto bins = gather<AxisBins>(range, depth, SpaceGrid::bin_count,
-                                       [&](AxisBins& into, std::span<const Reference> part) {
-                                         grid.add(into, part, primitives_);
-                                       });
+    gather(bins, range, depth, SpaceGrid::bin_count,
+           [&](AxisBins& into, std::span<const Reference> part) {
+             grid.add(into, part, primitives_);
+           });
     SplitCandidate best;
     bins.improve(best, grid.axis(), SpaceGrid::bin_count, limits);
     const double halving_cost = range.bounds.boxes.half_area() * range.count();
@@ -243,18 +250,14 @@ class SpatialSplitBuild {
   }
 
   template <class Bins, class Add>
-  Bins gather(const ReferenceRange& range, int depth, int bin_count, const Add& add) {
+  void gather(Bins& sum, const ReferenceRange& range, int depth, int bin_count, const Add& add) {
     const std::span<const Reference> all = references(range, depth);
-    Bins sum;
-    if (is_small(all)) {
-      add(sum, all);
-      return sum;
-    }
+    sum.clear(bin_count);
+    if (is_small(all)) return add(sum, all);
     std::vector<Bins> bins(most_chunks);
     for_each_chunk(all, progress_,
                    [&](size_t chunk, std::span<const Reference> part) { add(bins[chunk], part); });
     for (const Bins& part : bins) sum.merge(part, bin_count);
-    return sum;
   }
 
   template <class Route>

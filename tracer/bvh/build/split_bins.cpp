@@ -18,13 +18,20 @@ void AxisBins::improve(SplitCandidate& best, int axis, int bin_count,
   std::array<double, most_bins> right_areas;
   std::array<uint32_t, most_bins> right_counts;
   SplitSide right;
+  double right_area = 0;
   for (int bin = bin_count - 1; bin > 0; --bin) {
-    right.bounds.extend(bins_[bin].bounds);
-    right_areas[bin] = right.bounds.half_area();
-    right_counts[bin] = right.count += bins_[bin].exits;
+    if (!bins_[bin].is_untouched()) {
+      right.bounds.extend(bins_[bin].bounds);
+      right.count += bins_[bin].exits;
+      right_area = right.bounds.half_area();
+    }
+    right_areas[bin] = right_area;
+    right_counts[bin] = right.count;
   }
   SplitSide left;
   for (int bin = 1; bin < bin_count; ++bin) {
+    // Nothing lies between this plane and the one before.
+    if (bins_[bin - 1].is_untouched()) continue;
     left.bounds.extend(bins_[bin - 1].bounds);
     left.count += bins_[bin - 1].entries;
     const uint32_t right_count = right_counts[bin];

@@ -2,6 +2,7 @@
 // The surface area heuristic over bins: of centres [Wald 2007], and of space [Stich 2009].
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -37,6 +38,7 @@ struct SplitLimits {
 /// Bins of one axis. A reference enters at one and leaves at another, which may be the same.
 class AxisBins {
  public:
+  void clear(int bin_count) { std::fill_n(bins_.begin(), bin_count, Bin{}); }
   void add(int bin, const Box4& box) {
     bins_[bin].bounds.extend(box);
     ++bins_[bin].entries;
@@ -53,6 +55,10 @@ class AxisBins {
     Box4 bounds;
     uint32_t entries = 0;
     uint32_t exits = 0;
+
+    bool is_untouched() const {
+      return entries == 0 && exits == 0 && !(bounds.min[0] <= bounds.max[0]);
+    }
   };
   std::array<Bin, most_bins> bins_;
 };
@@ -76,6 +82,9 @@ class CenterGrid {
 
 class CenterBins {
  public:
+  void clear(int bin_count) {
+    for (AxisBins& axis : axes_) axis.clear(bin_count);
+  }
   void add(std::span<const Reference> references, const CenterGrid& grid);
   void merge(const CenterBins& other, int bin_count);
   SplitCandidate best(const CenterGrid& grid, const SplitLimits& limits) const;
