@@ -3,14 +3,17 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "app/session_changes.h"
+#include "tracer/bvh/build/reinsertion.h"
 
 namespace app {
 
 bool is_same_tree(const TreeKey& a, const TreeKey& b) {
   if (a.builder == nullptr && b.builder == nullptr) return true;
   return a.builder == b.builder && a.layout == b.layout &&
+         a.improvement_rounds == b.improvement_rounds &&
          !differs(a.settings, b.settings, tracer::Effect::rebuild);
 }
 
@@ -19,7 +22,12 @@ std::shared_ptr<const tracer::Accel> build_accel(std::shared_ptr<const tracer::M
   std::optional<tracer::BvhTree> tree;
   if (key.builder != nullptr) {
     progress.start_stage("building the tree");
-    tree = key.builder->build(tracer::primitive_boxes(*mesh), key.settings, progress);
+    const std::vector<tracer::Box> boxes = primitive_boxes(*mesh);
+    tree = key.builder->build(mesh_primitives(*mesh, boxes), key.settings, progress);
+    if (key.improvement_rounds > 0) progress.start_stage("improving the tree");
+    for (int round = 0; round < key.improvement_rounds; ++round) {
+      *tree = reinsert(*tree, key.settings, progress);
+    }
   }
   return std::make_shared<const tracer::Accel>(
       make_accel(std::move(mesh), std::move(tree), *key.layout, progress));

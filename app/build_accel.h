@@ -13,6 +13,7 @@ struct TreeKey {
   const tracer::Builder* builder = &tracer::builders().front();  // nullptr: none, brute force
   const tracer::Layout* layout = &tracer::layouts().front();
   tracer::BuildSettings settings;
+  int improvement_rounds = 0;  // of re-insertion, at most, before it is laid out
 };
 
 /// Whether both ask for the same tree; without a builder nothing else matters.

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int max_samples = 1 << 30;
 constexpr double max_seconds = 1e7;
+constexpr int max_improvement_rounds = 1000;
 
 constexpr const char* usage =
     "boxwood render MODEL.obj -o PICTURE.{png,exr,pfm} [options]\n"
@@ -117,6 +118,11 @@ void add_tree(CLI::App& app, RenderOptions& options) {
             })
       ->group("Bounding volume hierarchy");
   add_fields(app, "Bounding volume hierarchy", options.build);
+  add_value(app, "--improve-rounds", "N", "rounds of re-insertion that lower the tree's cost [0]",
+            [&options](const std::string& text) {
+              options.improvement_rounds = parse_whole_number(text, 0, max_improvement_rounds);
+            })
+      ->group("Bounding volume hierarchy");
   add_value(app, "--threads", "N", "threads to work on [all]", [&](const std::string& text) {
     options.thread_count = parse_whole_number(text, 1, max_threads);
   })->group("Bounding volume hierarchy");

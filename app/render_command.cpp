@@ -93,8 +93,10 @@ class RenderJob {
     resolve();
 
     const Stopwatch build_start;
-    world_.accel = build_accel(imported_.scene.mesh,
-                               {options_.builder, options_.layout, options_.build}, progress_);
+    world_.accel = build_accel(
+        imported_.scene.mesh,
+        {options_.builder, options_.layout, options_.build, options_.improvement_rounds},
+        progress_);
     report_.seconds.build = build_start.seconds();
     report_.tree = measure(*world_.accel, sah_costs(options_.build));
     if (options_.stats_file && world_.accel->tree) measure_quality();

@@ -33,6 +33,7 @@ struct RenderOptions {
   const tracer::Builder* builder = &tracer::builders().front();  // nullptr: brute force
   const tracer::Layout* layout = &tracer::layouts().front();
   tracer::BuildSettings build;
+  int improvement_rounds = 0;
   int thread_count = 0;  // 0: all there are
 
   std::optional<tracer::Vec2i> pixel;  // describe one sample of it

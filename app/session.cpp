@@ -19,7 +19,7 @@
 namespace app {
 namespace {
 
-enum class JobKind { none, load, shade, build };
+enum class JobKind { none, load, shade, build, improve };
 
 /// The job in flight.
 struct Job {
@@ -44,6 +44,7 @@ struct Session::State {
   void load(std::unique_lock<std::mutex>& lock);
   void shade(std::unique_lock<std::mutex>& lock);
   void build(std::unique_lock<std::mutex>& lock);
+  void improve(std::unique_lock<std::mutex>& lock);
   std::shared_ptr<tracer::Progress> begin_job(JobKind kind, std::string path);
   void end_job();
   void set_error(std::string text);
@@ -52,6 +53,8 @@ struct Session::State {
 
   bool wants_shading() const;
   bool wants_tree() const;
+  bool is_wanted(const BuiltTree& built) const;
+  bool wants_improvement();
   bool is_edited_model() const { return model && edits.model_generation == model->generation; }
   std::shared_ptr<const tracer::World> make_world() const;
   void restart_picture();
@@ -110,6 +113,8 @@ void Session::State::run_jobs() {
       shade(lock);
     } else if (wants_tree()) {
       build(lock);
+    } else if (wants_improvement()) {
+      improve(lock);
     } else {
       changed.wait(lock);
     }
@@ -121,8 +126,19 @@ bool Session::State::wants_shading() const {
 }
 
 bool Session::State::wants_tree() const {
-  const TreeKey wanted = tree_key_of(edits);
-  return model && !is_same_tree(wanted, tree.key) && !(declined && is_same_tree(wanted, *declined));
+  return model && !is_wanted(tree) && !(declined && is_same_tree(tree_key_of(edits), *declined));
+}
+
+// Whoever switches improvement off wants the tree as it was built.
+bool Session::State::is_wanted(const BuiltTree& built) const {
+  return is_same_tree(tree_key_of(edits), built.key) &&
+         (edits.improve || built.improvement.rounds == 0);
+}
+
+// Not before there is a picture: the first passes have all threads for themselves.
+bool Session::State::wants_improvement() {
+  return edits.improve && is_edited_model() && tree.accel && tree.accel->tree &&
+         !tree.improvement.is_over && renderer.status().samples > 0;
 }
 
 std::shared_ptr<tracer::Progress> Session::State::begin_job(JobKind kind, std::string path) {
@@ -197,7 +213,7 @@ void Session::State::build(std::unique_lock<std::mutex>& lock) {
   const TreeKey key = job.key;
   const auto mesh = model->scene->mesh;
   std::optional<BuiltTree> built;
-  if (off_tree && is_same_tree(key, off_tree->key)) built = off_tree;
+  if (off_tree && is_wanted(*off_tree)) built = off_tree;
   lock.unlock();
 
   std::string failure;
@@ -227,6 +243,29 @@ void Session::State::use_tree(BuiltTree built) {
   quality_meter.set_accel(tree.accel);
 }
 
+void Session::State::improve(std::unique_lock<std::mutex>& lock) {
+  const auto progress = begin_job(JobKind::improve, {});
+  const BuiltTree before = tree;
+  lock.unlock();
+
+  std::optional<BuiltTree> improved;
+  try {
+    improved = improve_tree(before, *progress);
+  } catch (const tracer::Cancelled&) {
+  } catch (const std::exception&) {
+    improved = before;  // short of memory, the tree stays as it is
+    improved->improvement.is_over = true;
+  }
+
+  lock.lock();
+  if (improved && !progress->stop_requested()) {
+    const bool is_better = improved->accel != before.accel;
+    use_tree(std::move(*improved));
+    if (is_better && is_edited_model()) renderer.resume_with(make_world());
+  }
+  end_job();
+}
+
 std::shared_ptr<const tracer::World> Session::State::make_world() const {
   return std::make_shared<const tracer::World>(tracer::World{
       .scene = model->scene,
@@ -247,8 +286,10 @@ Status Session::State::status() {
   status.is_loading = job.kind == JobKind::load || open_request.has_value();
   status.is_building = job.kind == JobKind::build || job.kind == JobKind::shade;
   status.is_rendering = render.is_rendering;
-  status.is_answered = is_edited_model() && job.kind == JobKind::none && !wants_tree() &&
-                       !wants_shading() && render.is_picture_whole;
+  const bool is_at_work = job.kind != JobKind::none && job.kind != JobKind::improve;
+  status.is_answered = is_edited_model() && !is_at_work && !wants_tree() && !wants_shading() &&
+                       render.is_picture_whole;
+  status.is_improving = job.kind == JobKind::improve || wants_improvement();
   if (job.progress) {
     status.stage = job.progress->stage();
     status.fraction = job.progress->fraction();
@@ -265,6 +306,8 @@ Status Session::State::status() {
   status.tree = tree.metrics;
   status.tree_quality = quality_meter.quality();
   status.build_seconds = tree.seconds;
+  status.improvement_rounds = tree.improvement.rounds;
+  status.first_sah_cost = tree.improvement.first_sah_cost;
   status.mrays_per_second = render.rates.recent_mrays_per_second();
   status.mrays_per_second_bvh = render.rates.mrays_per_second(TraceMode::bvh);
   status.mrays_per_second_brute_force = render.rates.mrays_per_second(TraceMode::brute_force);
@@ -293,6 +336,7 @@ void Session::cancel_job() {
   if (!state_->job.progress) return;
   state_->job.progress->request_stop();
   if (state_->job.kind == JobKind::build) state_->declined = state_->job.key;
+  if (state_->job.kind == JobKind::improve) state_->tree.improvement.is_over = true;
 }
 
 void Session::set(const Edits& edits) {
@@ -309,6 +353,10 @@ void Session::set(const Edits& edits) {
     if (job.kind == JobKind::build && !is_same_tree(job.key, tree_key_of(edits))) {
       job.progress->request_stop();
     }
+    if (job.kind == JobKind::improve &&
+        (!edits.improve || state_->wants_tree() || state_->wants_shading())) {
+      job.progress->request_stop();
+    }
   }
   state_->changed.notify_one();
 }
@@ -319,6 +367,8 @@ Update Session::poll() {
   {
     const std::lock_guard lock(state_->mutex);
     update.status = state_->status();
+    // That there is a picture by now is known here first.
+    if (update.status.is_improving) state_->changed.notify_one();
   }
   TileQueue::Taken taken = state_->renderer.take_tiles();
   update.size_px = taken.size_px;

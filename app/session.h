@@ -33,6 +33,7 @@ struct Edits {
   const tracer::Builder* builder = &tracer::builders().front();  // nullptr: BVH off, brute force
   const tracer::Layout* layout = &tracer::layouts().front();
   tracer::BuildSettings build;
+  bool improve = true;  // the tree by re-insertion, while and after the picture resolves
   int sample_limit = 1024;
 };
 
@@ -42,6 +43,7 @@ struct Status {
   bool is_building = false;
   bool is_rendering = false;
   bool is_answered = false;       // the edits' tree is in use, and all of the picture shows them
+  bool is_improving = false;      // the tree in use, in the background
   std::string stage;              // of the job that runs
   float fraction = 0;             // of the stage
   std::string loading_path;       // while is_loading
@@ -52,6 +54,8 @@ struct Status {
   std::shared_ptr<const tracer::ImportedScene> model;
   tracer::TreeMetrics tree;  // of the tree in use; nodes 0 when the BVH is off
   std::optional<tracer::TreeQuality> tree_quality;  // of the same tree, when it is known
+  int improvement_rounds = 0;  // of re-insertion that the tree in use has gained by
+  double first_sah_cost = 0;   // of the tree in use, as it was built
   double load_seconds = 0;
   double build_seconds = 0;
   double mrays_per_second = 0;              // of the last second of tracing

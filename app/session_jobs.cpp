@@ -4,6 +4,9 @@
 #include <chrono>
 #include <utility>
 
+#include "tracer/base/low_priority.h"
+#include "tracer/bvh/build/reinsertion.h"
+
 namespace app {
 namespace {
 
@@ -28,15 +31,35 @@ LoadedModel load_model(const std::filesystem::path& path, tracer::Progress& prog
 
 BuiltTree build_tree(const std::shared_ptr<const tracer::Mesh>& mesh, const TreeKey& key,
                      tracer::Progress& progress) {
-  BuiltTree built{.key = key, .accel = nullptr, .metrics = {}, .seconds = 0};
+  BuiltTree built{.key = key, .accel = nullptr, .metrics = {}, .seconds = 0, .improvement = {}};
   const auto start = Clock::now();
   built.accel = build_accel(mesh, key, progress);
   if (built.accel->tree) {
     built.seconds = seconds_since(start);
     built.metrics = measure(*built.accel, sah_costs(key.settings));
+    built.improvement.first_sah_cost = built.metrics.sah_cost;
   }
   progress.throw_if_stopped();
   return built;
+}
+
+BuiltTree improve_tree(const BuiltTree& built, tracer::Progress& progress) {
+  constexpr double least_gain = 0.001;
+  const tracer::SahCosts costs = sah_costs(built.key.settings);
+  BuiltTree improved = built;
+  tracer::run_at_low_priority([&] {
+    progress.start_stage("improving the tree");
+    tracer::BvhTree tree = reinsert(*built.accel->tree, built.key.settings, progress);
+    improved.improvement.is_over =
+        !(measure(tree, costs).sah_cost < (1 - least_gain) * built.metrics.sah_cost);
+    if (improved.improvement.is_over) return;
+    improved.accel = std::make_shared<const tracer::Accel>(
+        make_accel(built.accel->mesh, std::move(tree), *built.key.layout, progress));
+  });
+  if (improved.improvement.is_over) return improved;
+  improved.metrics = measure(*improved.accel, costs);
+  ++improved.improvement.rounds;
+  return improved;
 }
 
 }  // namespace app

@@ -16,11 +16,19 @@
 
 namespace app {
 
+/// What re-insertion has done for a tree.
+struct Improvement {
+  int rounds = 0;
+  double first_sah_cost = 0;  // as it was built
+  bool is_over = false;       // another round would gain too little
+};
+
 struct BuiltTree {
   TreeKey key;
   std::shared_ptr<const tracer::Accel> accel;
   tracer::TreeMetrics metrics;
   double seconds = 0;
+  Improvement improvement{};
 };
 
 struct LoadedModel {
@@ -36,5 +44,8 @@ LoadedModel load_model(const std::filesystem::path& path, tracer::Progress& prog
 /// Throws Cancelled.
 BuiltTree build_tree(const std::shared_ptr<const tracer::Mesh>& mesh, const TreeKey& key,
                      tracer::Progress& progress);
+/// One round of re-insertion, at low priority; the same tree where that would not lower its cost by
+/// a thousandth. Throws Cancelled.
+BuiltTree improve_tree(const BuiltTree& built, tracer::Progress& progress);
 
 }  // namespace app

@@ -109,6 +109,7 @@ void Viewer::send_edits() {
                 .builder = settings_.is_bvh_on ? settings_.builder : nullptr,
                 .layout = settings_.layout,
                 .build = settings_.build,
+                .improve = settings_.improves_tree,
                 .sample_limit = settings_.sample_limit});
 }
 

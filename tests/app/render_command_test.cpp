@@ -10,6 +10,7 @@
 #include "tests/support/cube_obj.h"
 #include "tests/support/read_pfm.h"
 #include "tests/support/run_program.h"
+#include "tests/support/test_ball.h"
 #include "tracer/bvh/build.h"
 #include "tracer/render/integrator.h"
 
@@ -59,6 +60,17 @@ TEST_F(RenderCommand, every_format_is_the_same_bytes_at_a_second_run) {
     EXPECT_EQ(render({"--spp", "2"}, name), first) << name;
     EXPECT_EQ(first.find(folder_.path().string()), std::string::npos) << name;
   }
+}
+
+TEST_F(RenderCommand, improve_rounds_lower_the_cost_and_keep_the_bits) {
+  write_ball(model_, 24);
+  const Arguments built{"--spp", "2", "--bvh", "median"};
+  const Arguments improved{"--spp", "2", "--bvh", "median", "--improve-rounds", "3"};
+  EXPECT_EQ(render(improved), render(built));
+  const auto cost_of = [this](const Arguments& arguments) {
+    return stats_of(arguments).at("sah_cost").get<double>();
+  };
+  EXPECT_LT(cost_of(improved), cost_of(built));
 }
 
 TEST_F(RenderCommand, png_and_exr_carry_how_they_were_made) {

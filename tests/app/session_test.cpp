@@ -105,7 +105,7 @@ class SessionTest : public testing::Test {
 
   bool is_done() const {
     return status_.model && !status_.is_rendering && !status_.is_building && !status_.is_loading &&
-           status_.samples >= static_cast<uint32_t>(edits_.sample_limit);
+           !status_.is_improving && status_.samples >= static_cast<uint32_t>(edits_.sample_limit);
   }
 
   testing::AssertionResult show(const fs::path& path) {
@@ -213,9 +213,8 @@ TEST_F(SessionTest, a_new_tree_keeps_the_film_to_the_last_bit) {
   const uint32_t nodes = status_.tree.node_count;
   edits_.build.max_depth = 3;
   session_->set(edits_);
-  ASSERT_TRUE(wait_until([&] { return !status_.is_building && status_.tree.depth <= 3; }));
+  ASSERT_TRUE(wait_until([&] { return status_.tree.depth <= 3 && is_done(); }));
   EXPECT_LT(status_.tree.node_count, nodes);
-  EXPECT_TRUE(is_done());
   EXPECT_EQ(status_.rays, rays);
   EXPECT_EQ(picture_.pixels, before);
 }
@@ -338,6 +337,55 @@ TEST_F(SessionTest, a_finished_picture_uses_no_cpu) {
   const double before = cpu_seconds();
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   EXPECT_LT(cpu_seconds() - before, 0.02);
+}
+
+TEST_F(SessionTest, the_tree_is_improved_after_the_picture_and_the_film_kept) {
+  edits_.builder = tracer::find_builder("median");
+  edits_.improve = false;
+  ASSERT_TRUE(show(ball("ball.obj", 24)));
+  const auto expected = picture_.pixels;
+  const double cost = status_.tree.sah_cost;
+  const uint64_t rays = status_.rays;
+  EXPECT_EQ(status_.improvement_rounds, 0);
+  edits_.improve = true;
+  session_->set(edits_);
+  ASSERT_TRUE(wait_until([this] { return status_.improvement_rounds > 0 && is_done(); }));
+  EXPECT_LT(status_.tree.sah_cost, 0.999 * cost);
+  EXPECT_EQ(status_.first_sah_cost, cost);
+  EXPECT_EQ(status_.rays, rays);
+  EXPECT_EQ(picture_.pixels, expected);
+  edits_.render.seed = 1;
+  session_->set(edits_);
+  edits_.render.seed = 0;
+  session_->set(edits_);
+  ASSERT_TRUE(wait_until([this] { return is_done(); }));
+  EXPECT_EQ(picture_.pixels, expected);
+}
+
+TEST_F(SessionTest, without_improvement_the_tree_is_as_it_was_built) {
+  edits_.builder = tracer::find_builder("median");
+  ASSERT_TRUE(show(ball("ball.obj", 24)));
+  ASSERT_GT(status_.improvement_rounds, 0);
+  edits_.improve = false;
+  session_->set(edits_);
+  ASSERT_TRUE(wait_until([this] { return status_.improvement_rounds == 0 && is_done(); }));
+  EXPECT_EQ(status_.tree.sah_cost, status_.first_sah_cost);
+}
+
+TEST_F(SessionTest, improvement_gives_way_to_whatever_needs_another_tree) {
+  edits_.builder = tracer::find_builder("median");
+  session_->set(edits_);
+  session_->open(ball("large.obj", 300));
+  ASSERT_TRUE(wait_until([this] { return status_.is_improving && status_.stage[0] == 'i'; }));
+  edits_.build.max_depth = 3;
+  session_->set(edits_);
+  ASSERT_TRUE(wait_until([this] { return status_.tree.depth == 3 && is_done(); }));
+  const fs::path small = ball("small.obj", 12);
+  edits_.build.max_depth = 30;
+  session_->set(edits_);
+  ASSERT_TRUE(wait_until([this] { return status_.is_improving && status_.stage[0] == 'i'; }));
+  session_->open(small);
+  ASSERT_TRUE(wait_until([&] { return status_.model_path == small.string() && is_done(); }));
 }
 
 TEST_F(SessionTest, a_higher_sample_limit_goes_on_where_it_ended) {

@@ -43,7 +43,7 @@ void bench_build(benchmark::State& state, const Builder& builder, const Mesh& me
   const std::vector<Box> boxes = primitive_boxes(mesh);
   for (auto _ : state) {
     Progress progress;
-    benchmark::DoNotOptimize(builder.build(boxes, {}, progress));
+    benchmark::DoNotOptimize(builder.build(mesh_primitives(mesh, boxes), {}, progress));
   }
   state.SetItemsProcessed(state.iterations() * static_cast<int64_t>(boxes.size()));
 }
@@ -74,7 +74,8 @@ void register_model(const std::string& name, const std::string& path) {
         ->UseRealTime()
         ->Unit(benchmark::kMillisecond);
     Progress progress;
-    const Accel accel = make_accel(mesh, builder.build(primitive_boxes(*mesh), {}, progress),
+    const std::vector<Box> boxes = primitive_boxes(*mesh);
+    const Accel accel = make_accel(mesh, builder.build(mesh_primitives(*mesh, boxes), {}, progress),
                                    layouts().front(), progress);
     for (const auto& [kind, rays] :
          {std::pair{"camera", camera_rays(*mesh)}, std::pair{"random", random_rays(*mesh)}}) {

@@ -82,7 +82,7 @@ void expect_trees_to_answer_as_brute_force(const Mesh& mesh, const std::vector<R
     for (const int max_depth : {1, 5, 30, 64}) {
       for (const int leaf_size : {1, 4, 64}) {
         Progress progress;
-        accel.tree = builder.build(boxes, {max_depth, leaf_size}, progress);
+        accel.tree = builder.build(mesh_primitives(mesh, boxes), {max_depth, leaf_size}, progress);
         const std::vector<Answer> found = answers(accel, rays);
         for (size_t i = 0; i < rays.size(); ++i) {
           ASSERT_TRUE(are_same_bits(found[i].hit, expected[i].hit) &&

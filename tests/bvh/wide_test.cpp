@@ -57,7 +57,7 @@ void expect_the_bits_of_the_reference(Mesh mesh_value, const BuildSettings& sett
   int sets = 0;
   for (const Builder& builder : builders()) {
     Progress progress;
-    const BvhTree tree = builder.build(boxes, settings, progress);
+    const BvhTree tree = builder.build(mesh_primitives(*mesh, boxes), settings, progress);
     const Accel binary = make_accel(mesh, tree, *find_layout("binary"), progress);
     RayCaster reference(binary, stop);
     for_each_instruction_set([&](const std::string& name) {

@@ -107,4 +107,13 @@ decltype(auto) with_thread_count(int thread_count, F&& f) {
   return arena.execute([&]() -> decltype(auto) { return fork_join.run_task(f); });
 }
 
+/// Runs f() on this thread and gives its parallel work to those that others leave idle.
+template <class F>
+decltype(auto) with_idle_threads(F&& f) {
+  using oneapi::tbb::task_arena;
+  task_arena arena(task_arena::automatic, 1, task_arena::priority::low);
+  parallel_detail::ForkJoin fork_join;
+  return arena.execute([&]() -> decltype(auto) { return fork_join.run_task(f); });
+}
+
 }  // namespace tracer

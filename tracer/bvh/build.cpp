@@ -22,6 +22,9 @@ constexpr std::array table{
     Builder{"morton", "Morton, quick",
             "Sorts along a space-filling curve: quickest to build, for settings being dragged.",
             build_morton},
+    Builder{"spatial-split", "SAH, spatial splits",
+            "Cuts triangles that would make boxes overlap: for long, thin and large ones.",
+            build_spatial_split},
 };
 
 }  // namespace

@@ -20,6 +20,7 @@ struct BuildSettings {
   double intersection_cost = 1;  // a primitive tested
   int bins = 16;                 // along each axis, of builders that bin centres
   int block_size = 1;            // primitives that are tested at once
+  double split_budget = 0.5;  // spatial splits: references beyond the primitives, as part of them
 };
 
 template <class Settings, class F>
@@ -39,6 +40,9 @@ void for_each_field(Settings& settings, F&& f) {
     Field<int>{"bins", 4, 64, "along each axis, for the binned SAH", Effect::rebuild});
   f(settings.block_size,
     Field<int>{"block-size", 1, 16, "triangles the SAH counts as one", Effect::rebuild});
+  f(settings.split_budget,
+    Field<double>{"split-budget", 0, 2, "references that spatial splits may add, a triangle",
+                  Effect::rebuild});
 }
 
 }  // namespace tracer

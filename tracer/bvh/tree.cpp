@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tracer/bvh/tree.h"
 
+#include <algorithm>
+#include <array>
+
 namespace tracer {
 namespace {
 
@@ -8,22 +11,37 @@ std::string node_name(uint32_t node) {
   return "node " + std::to_string(node);
 }
 
+std::string primitive_name(uint32_t primitive) {
+  return "primitive " + std::to_string(primitive);
+}
+
 class Validation {
  public:
-  Validation(const BvhTree& tree, const std::vector<Box>& boxes, int max_depth)
+  Validation(const BvhTree& tree, const Primitives& primitives, int max_depth)
       : tree_(tree),
-        boxes_(boxes),
+        primitives_(primitives),
+        boxes_(primitives.boxes),
         max_depth_(max_depth),
         node_reached_(tree.nodes.size()),
-        primitive_reached_(boxes.size()) {}
+        leaves_of_(boxes_.size()) {}
 
   std::string fault() {
-    if (tree_.primitives.size() != boxes_.size()) return "not one primitive a box";
+    if (primitives_.slice ? tree_.primitives.size() < boxes_.size()
+                          : tree_.primitives.size() != boxes_.size()) {
+      return "not one primitive a box";
+    }
     if (boxes_.empty()) return tree_.nodes.empty() ? "" : "nodes without primitives";
     if (tree_.nodes.empty()) return "primitives without nodes";
     visit(0, 0);
-    if (fault_.empty()) require_all(node_reached_, "node");
-    if (fault_.empty()) require_all(primitive_reached_, "primitive");
+    for (size_t i = 0; i < node_reached_.size() && fault_.empty(); ++i) {
+      if (!node_reached_[i]) fail(node_name(static_cast<uint32_t>(i)) + " is not reached");
+    }
+    for (uint32_t i = 0; i < leaves_of_.size() && fault_.empty(); ++i) {
+      if (leaves_of_[i].empty()) fail(primitive_name(i) + " is not reached");
+    }
+    for (uint32_t i = 0; i < leaves_of_.size() && fault_.empty() && primitives_.slice; ++i) {
+      if (!is_covered(i, boxes_[i])) fail("the leaves of " + primitive_name(i) + " leave a gap");
+    }
     return fault_;
   }
 
@@ -50,13 +68,15 @@ class Validation {
     for (uint32_t i = node.first; i < node.first + node.count; ++i) {
       const uint32_t primitive = tree_.primitives[i];
       if (primitive >= boxes_.size()) return fail("no such primitive");
-      if (primitive_reached_[primitive]) {
-        return fail("primitive " + std::to_string(primitive) + " is in two leaves");
+      std::vector<const BvhNode*>& leaves = leaves_of_[primitive];
+      if (!leaves.empty() && (!primitives_.slice || leaves.back() == &node)) {
+        return fail(primitive_name(primitive) + " is there twice");
       }
-      primitive_reached_[primitive] = true;
+      leaves.push_back(&node);
       bounds.extend(boxes_[primitive]);
     }
-    return bounds;
+    // Parts are as large as their leaf says, but no larger than the whole.
+    return primitives_.slice && bounds.contains(node.bounds) ? node.bounds : bounds;
   }
 
   Box visit_children(uint32_t node_index, int depth) {
@@ -69,13 +89,35 @@ class Validation {
     return bounds;
   }
 
-  void require_all(const std::vector<bool>& reached, const char* what) {
-    for (size_t i = 0; i < reached.size(); ++i) {
-      if (!reached[i]) {
-        fail(std::string(what) + ' ' + std::to_string(i) + " is not reached");
-        return;
+  // Whether every part of the primitive in `part` is in one of its leaves. What no leaf holds is
+  // cut along a leaf's face, until nothing or no more than rounding is left.
+  bool is_covered(uint32_t primitive, const Box& part) const {
+    for (const BvhNode* leaf : leaves_of_[primitive]) {
+      if (leaf->bounds.contains(part)) return true;
+    }
+    for (const BvhNode* leaf : leaves_of_[primitive]) {
+      for (int axis = 0; axis < 3; ++axis) {
+        for (const float plane : {leaf->bounds.min[axis], leaf->bounds.max[axis]}) {
+          if (!(part.min[axis] < plane && plane < part.max[axis])) continue;
+          std::array<Box4, 2> halves;
+          primitives_.slice(primitive, axis, {&plane, 1}, halves);
+          return std::ranges::all_of(halves, [&](const Box4& half) {
+            const Box rest = intersection(half, Box4(part)).box();
+            return rest.is_empty() || is_covered(primitive, rest);
+          });
+        }
       }
     }
+    return is_rounding(part, boxes_[primitive]);
+  }
+
+  // Whether the part is a sliver no thicker than what slices may be too large by.
+  static bool is_rounding(const Box& part, const Box& whole) {
+    const double slack = 0x1p-17 * std::max(max_abs(Vec3d(whole.min)), max_abs(Vec3d(whole.max)));
+    for (int axis = 0; axis < 3; ++axis) {
+      if (part.extent()[axis] <= slack && whole.extent()[axis] > 2 * slack) return true;
+    }
+    return false;
   }
 
   Box fail(std::string fault) {
@@ -84,17 +126,18 @@ class Validation {
   }
 
   const BvhTree& tree_;
-  const std::vector<Box>& boxes_;
+  const Primitives& primitives_;
+  const std::span<const Box> boxes_;
   const int max_depth_;
   std::vector<bool> node_reached_;
-  std::vector<bool> primitive_reached_;
+  std::vector<std::vector<const BvhNode*>> leaves_of_;  // by primitive
   std::string fault_;
 };
 
 }  // namespace
 
-std::string validate(const BvhTree& tree, const std::vector<Box>& boxes, int max_depth) {
-  return Validation(tree, boxes, max_depth).fault();
+std::string validate(const BvhTree& tree, const Primitives& primitives, int max_depth) {
+  return Validation(tree, primitives, max_depth).fault();
 }
 
 }  // namespace tracer

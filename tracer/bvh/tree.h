@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tracer/bvh/primitives.h"
 #include "tracer/geometry/box.h"
 
 namespace tracer {
@@ -12,7 +13,7 @@ namespace tracer {
 /// 32 bytes. A leaf holds `count` > 0 primitives, BvhTree::primitives[first, first + count). An
 /// inner node has count 0 and its children at nodes[first] and nodes[first + 1].
 struct BvhNode {
-  Box bounds;  // 24 bytes: of all primitives below, bit for bit
+  Box bounds;  // 24 bytes: of all primitives below, or of the parts of them that belong here
   uint32_t first = 0;
   uint32_t count = 0;
 
@@ -21,15 +22,17 @@ struct BvhNode {
 static_assert(sizeof(BvhNode) == 32);
 
 /// A binary tree over primitives. nodes[0] is the root; no primitives, no nodes. Children come
-/// after their parent, in pairs.
+/// after their parent, in pairs, and the primitives below a node are side by side. A primitive that
+/// was cut is in several leaves: the part of it in each leaf's bounds belongs there.
 struct BvhTree {
   std::vector<BvhNode> nodes;
   std::vector<uint32_t> primitives;
 };
 
-/// Empty when every invariant of the tree over `boxes` holds, else the first that does not, in
-/// words: bounds contain what is below, every primitive in a leaf, no node reached twice, no leaf
-/// deeper than `max_depth` (the root has depth 0).
-std::string validate(const BvhTree& tree, const std::vector<Box>& boxes, int max_depth);
+/// Empty when every invariant of the tree over `primitives` holds, else the first that does not, in
+/// words: every primitive in a leaf, bounds those of what is below bit for bit, no node reached
+/// twice, no leaf deeper than `max_depth` (the root has depth 0). Where primitives can be cut, a
+/// leaf's bounds may hold parts of them, and all leaves together must cover each primitive.
+std::string validate(const BvhTree& tree, const Primitives& primitives, int max_depth);
 
 }  // namespace tracer

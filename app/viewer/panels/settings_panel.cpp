@@ -81,6 +81,12 @@ void draw_tree_settings(const Ui& ui, ViewerSettings& settings) {
   draw_choice(ui, "Builder", "builder", tracer::builders(), settings.builder);
   draw_choice(ui, "Traversal", "layout", tracer::layouts(), settings.layout);
   draw_fields(ui, settings.build);
+  control_label(ui, "Improve");
+  ImGui::Checkbox("in the background##improve", &settings.improves_tree);
+  finish_control(
+      ui, "improve",
+      "While the picture resolves, nodes move to where boxes overlap less: the cost falls "
+      "round by round. Off: the tree as it was built.");
 }
 
 void draw_sky(const Ui& ui, ViewerSettings& settings) {

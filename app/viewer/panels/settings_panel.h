@@ -13,6 +13,7 @@ struct ViewerSettings {
   const tracer::Builder* builder = &tracer::builders().front();  // while the BVH is on
   const tracer::Layout* layout = &tracer::layouts().front();
   tracer::BuildSettings build;
+  bool improves_tree = true;
   const tracer::Integrator* integrator = &tracer::integrators().front();
   tracer::Shading shading = tracer::Shading::flat;
   tracer::RenderSettings render;

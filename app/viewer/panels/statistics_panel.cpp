@@ -45,6 +45,13 @@ void draw_speed_up(const Ui& ui, const Status& status) {
                           rate(status.mrays_per_second_brute_force).value));
 }
 
+// By how much the tree in use has become cheaper since it was built.
+Quantity improvement(const Status& status) {
+  if (status.improvement_rounds == 0) return {status.is_improving ? "..." : "–", "%"};
+  const double part = 1 - status.tree.sah_cost / status.first_sah_cost;
+  return {fmt::format("−{:.1f}", 100 * part), "%"};
+}
+
 std::string of_leaves(uint32_t count) {
   return fmt::format("{} {}", format_count(count), count == 1 ? "leaf" : "leaves");
 }
@@ -110,6 +117,8 @@ void draw_tree(const Ui& ui, const Status& status) {
                  "A ray that enters it is tested against so many triangles."}});
   draw_histograms(ui, tree);
   draw_costs(ui, status);
+  number_row(ui, "Improved", improvement(status),
+             "By how much re-insertion has lowered the SAH cost since the tree was built.");
   cell_row(ui, {{"Build", has_tree ? format_seconds(status.build_seconds) : Quantity{"–", "ms"},
                  "Building the tree and laying it out for the traversal."},
                 {"Load", status.model ? format_seconds(status.load_seconds) : Quantity{"–", "ms"},

@@ -31,4 +31,11 @@ BvhTree build_binned_sah(const Primitives& primitives, const BuildSettings& sett
 BvhTree build_morton(const Primitives& primitives, const BuildSettings& settings,
                      Progress& progress);
 
+/// Takes the cheapest of binned planes between centres, and where the two sides would overlap, of
+/// planes that cut primitives in two: a primitive may then be in several leaves, and the bounds of
+/// a leaf hold no more than its parts. [Stich 2009] At most split_budget references more than
+/// primitives, dealt out to subtrees before they are built, so that threads don't matter.
+BvhTree build_spatial_split(const Primitives& primitives, const BuildSettings& settings,
+                            Progress& progress);
+
 }  // namespace tracer

@@ -51,7 +51,7 @@ struct WideTree {
   static constexpr size_t rows_a_block = 10;  // x, y, z of v0, of v1, of v2, primitive index bits
 
   struct BlockInfo {
-    float extent = 0;      // longest side of the box of the whole leaf, rounded up
+    float extent = 0;      // longest side of the leaf's box and its whole triangles, rounded up
     uint16_t count = 0;    // triangles in this block; unused lanes repeat the last one
     uint16_t is_last = 0;  // of its leaf
   };

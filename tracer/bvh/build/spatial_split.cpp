@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <memory>
+
+#include "tracer/base/parallel.h"
+#include "tracer/bvh/build/builders.h"
+#include "tracer/bvh/build/reference_sides.h"
+#include "tracer/bvh/build/split_bins.h"
+#include "tracer/bvh/build/tree_part.h"
+
+namespace tracer {
+namespace {
+
+// A cut of space is looked for where two children would overlap by more than these parts of the
+// root's area [Stich 2009] 4.1 and of their parent's: elsewhere it hardly ever pays.
+constexpr double least_overlap_of_root = 0x1p-17;
+constexpr double least_overlap_of_parent = 0.1;
+// Smaller sets become a block or two of triangles, for which a second copy costs more.
+constexpr uint32_t least_count_to_cut = 32;
+/// References in one of two buffers, and the positions that they and their parts may take.
+struct ReferenceRange {
+  uint32_t region_begin;
+  uint32_t region_end;
+  uint32_t begin;
+  uint32_t end;
+  SetBounds bounds;
+
+  uint32_t count() const { return end - begin; }
+  uint32_t room() const { return region_end - region_begin; }
+};
+
+/// Cuts references at a plane, or leaves them whole where that costs less. [Stich 2009] 4.2, 4.4
+class SpaceRoute {
+ public:
+  SpaceRoute(const SplitCandidate& split, float plane, const Primitives& primitives)
+      : split_(split), plane_(plane), primitives_(primitives) {}
+
+  template <class Sink>
+  void operator()(const Reference& reference, Sink& sink) const {
+    if (reference.max[split_.axis] <= plane_) return sink.to_left(reference);
+    if (reference.min[split_.axis] >= plane_) return sink.to_right(reference);
+    const Box4 box = reference.box();
+    const double cut = split_.cost;
+    const double left = cost_with(split_.left, box) + cost_without(split_.right);
+    const double right = cost_without(split_.left) + cost_with(split_.right, box);
+    if (left < cut && left <= right) return sink.to_left(reference);
+    if (right < cut) return sink.to_right(reference);
+    std::array<Box4, 2> parts;
+    primitives_.slice(reference.primitive, split_.axis, {&plane_, 1}, parts);
+    const Box left_part = intersection(parts[0], box).box();
+    const Box right_part = intersection(parts[1], box).box();
+    if (!left_part.is_empty()) sink.to_left({left_part, reference.primitive});
+    if (!right_part.is_empty()) sink.to_right({right_part, reference.primitive});
+  }
+
+ private:
+  static double cost_with(const SplitSide& side, const Box4& box) {
+    Box4 bounds = side.bounds;
+    bounds.extend(box);
+    return bounds.half_area() * side.count;
+  }
+  static double cost_without(const SplitSide& side) {
+    return side.bounds.half_area() * (side.count - 1);
+  }
+
+  const SplitCandidate& split_;
+  const float plane_;
+  const Primitives& primitives_;
+};
+
+class SpatialSplitBuild {
+ public:
+  SpatialSplitBuild(const Primitives& primitives, const BuildSettings& settings, Progress& progress)
+      : primitives_(primitives),
+        leaf_size_(static_cast<uint32_t>(std::max(settings.leaf_size, 1))),
+        max_depth_(std::min(settings.max_depth, max_tree_depth)),
+        progress_(progress) {
+    const double budget = primitives.slice ? std::max(settings.split_budget, 0.0) : 0;
+    const auto count = static_cast<double>(primitives.boxes.size());
+    capacity_ = static_cast<uint32_t>(std::min(count * (1 + budget), 0x7fffffffp0));
+    for (auto& buffer : buffers_) {
+      buffer.reset(
+          static_cast<Reference*>(std::malloc(sizeof(Reference) * std::max(capacity_, 1u))));
+      if (!buffer) throw std::bad_alloc();
+    }
+  }
+
+  BvhTree run() {
+    if (primitives_.boxes.empty()) return {};
+    const ReferenceRange all = all_references();
+    root_area_ = all.bounds.boxes.half_area();
+    const std::unique_ptr<TreePart> root = subtree(all, 0);
+    return join(*root);
+  }
+
+ private:
+  using Children = std::array<ReferenceRange, 2>;
+
+  // A task's own, on the heap as it is large.
+  struct Scratch {
+    CenterBins centers;
+    AxisBins space;
+  };
+
+  struct Free {
+    void operator()(Reference* references) const { std::free(references); }
+  };
+
+  ReferenceRange all_references() {
+    const auto count = static_cast<uint32_t>(primitives_.boxes.size());
+    parallel_for_ranges(0, count, 16384, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) {
+        new (&buffers_[0][i]) Reference(primitives_.boxes[i], static_cast<uint32_t>(i));
+      }
+    });
+    ReferenceRange all{0, capacity_, 0, count, {}};
+    std::array<SetBounds, most_chunks> bounds;
+    for_each_chunk(references(all, 0), progress_,
+                   [&](size_t chunk, std::span<const Reference> part) {
+                     for (const Reference& reference : part) bounds[chunk].extend(reference.box());
+                   });
+    for (const SetBounds& part : bounds) all.bounds.extend(part);
+    return all;
+  }
+
+  std::span<Reference> references(const ReferenceRange& range, int depth) {
+    return {buffers_[depth % 2].get() + range.begin, range.count()};
+  }
+
+  std::unique_ptr<TreePart> subtree(const ReferenceRange& range, int depth) {
+    auto part = std::make_unique<TreePart>();
+    part->nodes.resize(1);
+    const auto scratch = std::make_unique<Scratch>();
+    if (is_small(references(range, depth)) || is_leaf(range, depth)) {
+      subdivide(*part, 0, range, depth, *scratch);
+      report_placed(range.room());
+      return part;
+    }
+    part->nodes[0].bounds = range.bounds.boxes.box();
+    const Children children = split(range, depth, *scratch);
+    parallel_invoke([&] { part->left = subtree(children[0], depth + 1); },
+                    [&] { part->right = subtree(children[1], depth + 1); });
+    // Tasks are skipped, without an exception here, once one elsewhere has thrown.
+    if (!part->left || !part->right) throw Cancelled{};
+    return part;
+  }
+
+  void subdivide(TreePart& part, size_t node, const ReferenceRange& range, int depth,
+                 Scratch& scratch) {
+    progress_.throw_if_stopped();
+    const Box bounds = range.bounds.boxes.box();
+    if (is_leaf(range, depth)) {
+      part.nodes[node] = {bounds, static_cast<uint32_t>(part.primitives.size()), range.count()};
+      for (const Reference& reference : references(range, depth)) {
+        part.primitives.push_back(reference.primitive);
+      }
+      return;
+    }
+    const Children children = split(range, depth, scratch);
+    const size_t first = part.nodes.size();
+    part.nodes[node] = {bounds, static_cast<uint32_t>(first), 0};
+    part.nodes.resize(first + 2);
+    subdivide(part, first, children[0], depth + 1, scratch);
+    subdivide(part, first + 1, children[1], depth + 1, scratch);
+  }
+
+  bool is_leaf(const ReferenceRange& range, int depth) const {
+    return depth >= max_depth_ || range.count() <= leaf_size_;
+  }
+
+  // So that the levels below can reach the leaf size; no limit where they cannot in any case.
+  SplitLimits limits_of(const ReferenceRange& range, int depth) const {
+    const uint64_t reach = uint64_t{leaf_size_} << std::min(max_depth_ - depth - 1, 32);
+    const uint64_t side = range.count() <= 2 * reach ? reach : range.room();
+    return {static_cast<uint32_t>(std::min<uint64_t>(side, range.room())), range.room()};
+  }
+
+  Children split(const ReferenceRange& range, int depth, Scratch& scratch) {
+    const SplitLimits limits = limits_of(range, depth);
+    const CenterGrid centers(range.bounds.centers, center_bin_count(range));
+    gather(scratch.centers, range, depth, centers.bin_count(),
+           [&](CenterBins& into, std::span<const Reference> part) { into.add(part, centers); });
+    const SplitCandidate object = scratch.centers.best(centers, limits);
+    if (is_worth_cutting(range, object)) {
+      const Children cut = cut_space(scratch.space, range, depth, limits, object);
+      if (cut[0].count() > 0 && cut[1].count() > 0) return cut;
+    }
+    if (!object.exists()) return halve(range, depth);
+    return distribute(range, depth, [&](const Reference& reference, auto& sink) {
+      const Int4 bin = centers.bins_of(center_of(reference.box()));
+      if (bin[object.axis] < object.bin) {
+        sink.to_left(reference);
+      } else {
+        sink.to_right(reference);
+      }
+    });
+  }
+
+  static int center_bin_count(const ReferenceRange& range) {
+    return static_cast<int>(std::clamp(range.count() / 2, 8u, uint32_t{most_bins}));
+  }
+
+  bool is_worth_cutting(const ReferenceRange& range, const SplitCandidate& object) const {
+    if (!primitives_.slice || range.count() < least_count_to_cut) return false;
+    if (range.room() == range.count()) return false;
+    if (!object.exists()) return true;
+    const double overlap = intersection(object.left.bounds, object.right.bounds).half_area();
+    return overlap > least_overlap_of_root * root_area_ &&
+           overlap > least_overlap_of_parent * range.bounds.boxes.half_area();
+  }
+
+  // Two empty children where no cut costs less.
+  Children cut_space(AxisBins& bins, const ReferenceRange& range, int depth,
+                     const SplitLimits& limits, const SplitCandidate& object) {
+    const SpaceGrid grid(range.bounds.boxes.box());
+    if (grid.planes().empty()) return {};
+    gather(bins, range, depth, SpaceGrid::bin_count,
+           [&](AxisBins& into, std::span<const Reference> part) {
+             grid.add(into, part, primitives_);
+           });
+    SplitCandidate best;
+    bins.improve(best, grid.axis(), SpaceGrid::bin_count, limits);
+    const double halving_cost = range.bounds.boxes.half_area() * range.count();
+    if (!(best.cost < std::min(object.cost, halving_cost))) return {};
+    const float plane = grid.planes()[static_cast<size_t>(best.bin) - 1];
+    return distribute(range, depth, SpaceRoute(best, plane, primitives_));
+  }
+
+  // The middle of the order along the longest axis of the centres.
+  Children halve(const ReferenceRange& range, int depth) {
+    const std::span<Reference> all = references(range, depth);
+    const Box centers = range.bounds.centers.box();
+    const int axis = centers.longest_axis();
+    Reference* middle = all.data() + all.size() / 2;
+    const auto key = [axis](const Reference& reference) {
+      return std::pair(0.5f * reference.min[axis] + 0.5f * reference.max[axis],
+                       reference.primitive);
+    };
+    std::nth_element(all.data(), middle, all.data() + all.size(),
+                     [&](const Reference& a, const Reference& b) { return key(a) < key(b); });
+    return distribute(range, depth, [middle](const Reference& reference, auto& sink) {
+      if (&reference < middle) {
+        sink.to_left(reference);
+      } else {
+        sink.to_right(reference);
+      }
+    });
+  }
+
+  template <class Bins, class Add>
+  void gather(Bins& sum, const ReferenceRange& range, int depth, int bin_count, const Add& add) {
+    const std::span<const Reference> all = references(range, depth);
+    sum.clear(bin_count);
+    if (is_small(all)) return add(sum, all);
+    std::vector<Bins> bins(most_chunks);
+    for_each_chunk(all, progress_,
+                   [&](size_t chunk, std::span<const Reference> part) { add(bins[chunk], part); });
+    for (const Bins& part : bins) sum.merge(part, bin_count);
+  }
+
+  template <class Route>
+  Children distribute(const ReferenceRange& range, int depth, const Route& route) {
+    Reference* const target = buffers_[(depth + 1) % 2].get();
+    const SideWriter written =
+        write_sides(references(range, depth),
+                    {target + range.region_begin, target + range.region_end}, progress_, route);
+    return children_of(range, written, target);
+  }
+
+  // What room is left goes to the children as their areas times counts. [Ganestam 2015]
+  static Children children_of(const ReferenceRange& range, const SideWriter& written,
+                              const Reference* target) {
+    const auto left_end = static_cast<uint32_t>(written.left - target);
+    const auto right_begin = static_cast<uint32_t>(written.right - target);
+    const double left_weight =
+        written.left_bounds.boxes.half_area() * (left_end - range.region_begin);
+    const double right_weight =
+        written.right_bounds.boxes.half_area() * (range.region_end - right_begin);
+    const double weight = left_weight + right_weight;
+    const double left_part = weight > 0 ? left_weight / weight : 0.5;
+    const uint32_t border = left_end + static_cast<uint32_t>(left_part * (right_begin - left_end));
+    return {ReferenceRange{range.region_begin, border, range.region_begin, left_end,
+                           written.left_bounds},
+            ReferenceRange{border, range.region_end, right_begin, range.region_end,
+                           written.right_bounds}};
+  }
+
+  void report_placed(uint32_t room) {
+    const uint32_t placed = placed_.fetch_add(room, std::memory_order_relaxed) + room;
+    progress_.set_fraction(static_cast<double>(placed) / capacity_);
+  }
+
+  const Primitives& primitives_;
+  const uint32_t leaf_size_;
+  const int max_depth_;
+  Progress& progress_;
+  uint32_t capacity_;
+  double root_area_ = 0;
+  std::array<std::unique_ptr<Reference[], Free>, 2> buffers_;
+  std::atomic<uint32_t> placed_{0};
+};
+
+}  // namespace
+
+BvhTree build_spatial_split(const Primitives& primitives, const BuildSettings& settings,
+                            Progress& progress) {
+  return SpatialSplitBuild(primitives, settings, progress).run();
+}
+
+}  // namespace tracer
