@@ -141,6 +141,42 @@ TEST(Wide, gives_the_bits_of_the_reference_on_denormal_quads_with_long_direction
   EXPECT_GT(hits, 100);
 }
 
+TEST(Wide, counting_kernels_answer_alike_and_count_what_they_do) {
+  const auto mesh = std::make_shared<const Mesh>(rough_ball(20, 0.1f, 2));
+  Progress progress;
+  const StopFlag stop;
+  const BvhTree tree = builders().front().build(primitive_boxes(*mesh), {}, progress);
+  for_each_instruction_set([&](const std::string& name) {
+    const Accel accel = make_accel(mesh, tree, *find_layout("wide"), progress);
+    VisitCounts counts;
+    RandomSource random(3);
+    uint64_t hits = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const Ray ray = aimed_ray(*mesh, random);
+      Hit hit, counted, any;
+      ASSERT_TRUE(closest_hit_wide(*accel.wide, ray, stop, hit));
+      ASSERT_TRUE(closest_hit_wide(*accel.wide, ray, stop, counted, counts));
+      ASSERT_EQ(counted.primitive, hit.primitive) << name;
+      ASSERT_TRUE(occluded_wide(*accel.wide, ray, stop, any, counts));
+      ASSERT_EQ(any.is_hit(), hit.is_hit()) << name;
+      hits += hit.is_hit();
+    }
+    EXPECT_GE(counts.nodes, 2000u) << "the root for each query";
+    EXPECT_GE(counts.exact_tests, hits) << "the closest hit is always decided exactly";
+    EXPECT_LE(counts.exact_tests, counts.triangles);
+    EXPECT_LE(counts.triangles, counts.blocks * static_cast<uint64_t>(accel.wide->width));
+  });
+}
+
+TEST(Wide, fills_memory_of_at_most_64_bytes_a_triangle) {
+  const auto mesh = std::make_shared<const Mesh>(rough_ball(100, 0.1f, 2));
+  Progress progress;
+  const BvhTree tree = builders().front().build(primitive_boxes(*mesh), {}, progress);
+  const Accel accel = make_accel(mesh, tree, *find_layout("wide"), progress);
+  ASSERT_TRUE(accel.wide);
+  EXPECT_LE(accel.wide->bytes(), 64 * size_t{mesh->triangle_count()});
+}
+
 TEST(Wide, a_stopped_layout_is_cancelled) {
   const auto mesh = std::make_shared<const Mesh>(rough_ball(40, 0, 1));
   Progress progress;

@@ -39,8 +39,8 @@ constexpr size_t max_width = 16;
 constexpr size_t core_cache_bytes = size_t{1} << 21;
 
 /// Which nodes of the binary tree become nodes of the wide one: those for which the surface area
-/// cost of the whole is least. [Wald 2008] collapses greedily; this is the dynamic program over
-/// forests: costs[k] is the least cost of a subtree as at most k + 1 children of a wide node.
+/// cost of the whole is least. [Wald 2008] A dynamic program over forests: costs[k] is the least
+/// cost of a subtree as at most k + 1 children of a wide node.
 class Collapse {
  public:
   Collapse(const BvhTree& tree, const Mesh& mesh, int width, Progress& progress)
