@@ -98,6 +98,7 @@ void Viewer::adopt_model() {
 void Viewer::send_edits() {
   viewpoint_.set_up(settings_.up, aspect());
   picture_.set_exposure(settings_.render.exposure);
+  const uint32_t triangle_count = status_.model ? status_.model->scene.mesh->triangle_count() : 0;
   const tracer::Vec2d size = round(area_.size * gui_.pixel_ratio());
   session_.set({.model_generation = adopted_generation_,
                 .camera = viewpoint_.camera(),
@@ -106,7 +107,7 @@ void Viewer::send_edits() {
                 .shading = settings_.shading,
                 .integrator = settings_.integrator,
                 .render = settings_.render,
-                .builder = settings_.is_bvh_on ? settings_.builder : nullptr,
+                .builder = settings_.builder_for(triangle_count),
                 .layout = settings_.layout,
                 .build = settings_.build,
                 .improve = settings_.improves_tree,

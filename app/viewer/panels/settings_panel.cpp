@@ -63,13 +63,17 @@ void draw_value(const char* id, double& value, const tracer::Field<double>& fiel
   end_slider();
 }
 
+/// Whether one of them is being dragged.
 template <class Settings>
-void draw_fields(const Ui& ui, Settings& settings) {
+bool draw_fields(const Ui& ui, Settings& settings) {
+  bool is_dragged = false;
   for_each_field(settings, [&](auto& value, const auto& field) {
     control_label(ui, format_label(field.name));
     draw_value((std::string("##") + field.name).c_str(), value, field);
+    is_dragged |= ImGui::IsItemActive();
     finish_control(ui, field.name, field.help);
   });
+  return is_dragged;
 }
 
 void draw_tree_settings(const Ui& ui, ViewerSettings& settings) {
@@ -80,7 +84,7 @@ void draw_tree_settings(const Ui& ui, ViewerSettings& settings) {
                  "picture is the same to the last bit.");
   draw_choice(ui, "Builder", "builder", tracer::builders(), settings.builder);
   draw_choice(ui, "Traversal", "layout", tracer::layouts(), settings.layout);
-  draw_fields(ui, settings.build);
+  settings.is_build_dragged = draw_fields(ui, settings.build);
   control_label(ui, "Improve");
   ImGui::Checkbox("in the background##improve", &settings.improves_tree);
   finish_control(
@@ -131,7 +135,14 @@ void ViewerSettings::set_sky(const tracer::Vec3d& radiance) {
   sky_color = largest > 0 ? tracer::Vec3f(radiance / largest) : tracer::Vec3f(1.0f);
 }
 
+const tracer::Builder* ViewerSettings::builder_for(uint32_t triangle_count) const {
+  constexpr uint32_t large = 100'000;
+  if (!is_bvh_on) return nullptr;
+  return is_build_dragged && triangle_count > large ? tracer::find_builder("morton") : builder;
+}
+
 void draw_settings(const Ui& ui, ViewerSettings& settings) {
+  settings.is_build_dragged = false;
   if (section(ui, "Bounding volume hierarchy")) draw_tree_settings(ui, settings);
   if (section(ui, "Picture")) draw_picture_settings(ui, settings);
 }

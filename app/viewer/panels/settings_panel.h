@@ -13,6 +13,7 @@ struct ViewerSettings {
   const tracer::Builder* builder = &tracer::builders().front();  // while the BVH is on
   const tracer::Layout* layout = &tracer::layouts().front();
   tracer::BuildSettings build;
+  bool is_build_dragged = false;  // one of `build` is under the mouse
   bool improves_tree = true;
   const tracer::Integrator* integrator = &tracer::integrators().front();
   tracer::Shading shading = tracer::Shading::flat;
@@ -23,6 +24,9 @@ struct ViewerSettings {
   UpAxis up = UpAxis::automatic;
 
   tracer::Vec3d sky() const { return tracer::Vec3d(sky_color) * double{sky_brightness}; }
+  /// nullptr while the BVH is off. For a large model whose settings are being dragged the quickest
+  /// one.
+  const tracer::Builder* builder_for(uint32_t triangle_count) const;
   void set_sky(const tracer::Vec3d& radiance);
 };
 
