@@ -151,13 +151,17 @@ class Collapse {
       left_costs[k] = cost(left, k + 1);
       right_costs[k] = cost(right, k + 1);
     }
-    Costs& costs = costs_[node];
-    costs.fill(std::numeric_limits<float>::infinity());
-    for (size_t k = 0; k + 1 < width_; ++k) {
-      for (size_t other = 0; other + k + 1 < width_; ++other) {
-        costs[k + other + 1] = std::min(costs[k + other + 1], left_costs[k] + right_costs[other]);
+    // Loops of one length, for the compiler's SIMD; sums of more children than there may be are
+    // lost.
+    std::array<float, 2 * max_width> sums;
+    sums.fill(std::numeric_limits<float>::infinity());
+    for (size_t k = 0; k + 1 < max_width; ++k) {
+      for (size_t other = 0; other < max_width; ++other) {
+        sums[k + other + 1] = std::min(sums[k + other + 1], left_costs[k] + right_costs[other]);
       }
     }
+    Costs& costs = costs_[node];
+    std::copy_n(sums.begin(), max_width, costs.begin());
     costs[0] = area(node) * node_cost + costs[width_ - 1];
     for (size_t k = 1; k < width_; ++k) costs[k] = std::min(costs[k], costs[k - 1]);
   }
