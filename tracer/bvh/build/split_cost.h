@@ -62,15 +62,15 @@ inline Box4 scaled(const Box4& box, float scale) {
 inline Float4 half_areas(const Box4& a, const Box4& b, const Box4& c) {
   const auto faces = [](const Box4& box) {
     const Float4 size = box.max - box.min;
-    return size * __builtin_shuffle(size, Int4{1, 2, 0, 3});
+    return size * __builtin_shufflevector(size, size, 1, 2, 0, 3);
   };
   const Float4 of_a = faces(a), of_b = faces(b), of_c = faces(c);
   // Transposed, so that the three faces of a box add up in its lane.
-  const Float4 first_two = __builtin_shuffle(of_a, of_b, Int4{0, 4, 1, 5});
-  const Float4 last = __builtin_shuffle(of_a, of_b, Int4{2, 6, 3, 7});
-  return __builtin_shuffle(first_two, of_c, Int4{0, 1, 4, 4}) +
-         __builtin_shuffle(first_two, of_c, Int4{2, 3, 5, 5}) +
-         __builtin_shuffle(last, of_c, Int4{0, 1, 6, 6});
+  const Float4 first_two = __builtin_shufflevector(of_a, of_b, 0, 4, 1, 5);
+  const Float4 last = __builtin_shufflevector(of_a, of_b, 2, 6, 3, 7);
+  return __builtin_shufflevector(first_two, of_c, 0, 1, 4, 4) +
+         __builtin_shufflevector(first_two, of_c, 2, 3, 5, 5) +
+         __builtin_shufflevector(last, of_c, 0, 1, 6, 6);
 }
 
 /// The cheapest split seen on each of three axes, in lanes 0 to 2; the most even of equals.
