@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Many rays at once: which kernel suits which of them.
+#include <algorithm>
+#include <cassert>
+
+#include "tracer/bvh/trace/accel.h"
+#include "tracer/bvh/trace/bundle_kernels.h"
+
+namespace tracer {
+namespace {
+
+// Fewer rays are done sooner one by one.
+constexpr size_t least_bundle = 8;
+
+size_t bundle_end(size_t first, size_t ray_count) {
+  return std::min(first + bundle_size, ray_count);
+}
+
+bool may_share_origin(std::span<const Ray> rays) {
+  return rays.size() >= least_bundle && rays.front().origin == rays.back().origin;
+}
+
+}  // namespace
+
+void RayCaster::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) {
+  assert(rays.size() == hits.size());
+  const auto trace_alone = [&](size_t first, size_t end) {
+    while (first < end) {
+      if (accel_.wide && accel_.wide->is_larger_than_cache) {
+        const size_t done = closest_hits_in_flight(*accel_.wide, rays.subspan(first, end - first),
+                                                   stop_, hits.subspan(first, end - first));
+        ray_count_ += done;
+        first += done;
+        if (first == end) return;
+      }
+      hits[first] = closest_hit(rays[first]);
+      ++first;
+    }
+  };
+  size_t alone = 0;  // rays from here on are not answered yet
+  for (size_t first = 0; first < rays.size();) {
+    const size_t end = bundle_end(first, rays.size());
+    const auto bundle = rays.subspan(first, end - first);
+    if (accel_.wide && may_share_origin(bundle) && !stop_.requested() &&
+        closest_hits_bundle(*accel_.wide, bundle, stop_, hits.subspan(first, end - first))) {
+      trace_alone(alone, first);
+      ray_count_ += bundle.size();
+      alone = end;
+    }
+    first = end;
+  }
+  trace_alone(alone, rays.size());
+}
+
+void RayCaster::occluded(std::span<const Ray> rays, std::span<uint8_t> is_occluded) {
+  assert(rays.size() == is_occluded.size());
+  for (size_t first = 0; first < rays.size();) {
+    const size_t end = bundle_end(first, rays.size());
+    const auto bundle = rays.subspan(first, end - first);
+    if (accel_.wide && bundle.size() >= least_bundle && !stop_.requested() &&
+        occluded_bundle(*accel_.wide, bundle, stop_, is_occluded.subspan(first, end - first))) {
+      ray_count_ += bundle.size();
+    } else {
+      for (size_t i = first; i < end; ++i) is_occluded[i] = occluded(rays[i]) ? 1 : 0;
+    }
+    first = end;
+  }
+}
+
+}  // namespace tracer
