@@ -11,6 +11,8 @@ namespace {
 
 // Fewer rays are done sooner one by one.
 constexpr size_t least_bundle = 8;
+// In a row, after which every 32nd bundle is tried.
+constexpr size_t most_failures = 5;
 
 size_t bundle_end(size_t first, size_t ray_count) {
   return std::min(first + bundle_size, ray_count);
@@ -54,13 +56,22 @@ void RayCaster::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) {
 
 void RayCaster::occluded(std::span<const Ray> rays, std::span<uint8_t> is_occluded) {
   assert(rays.size() == is_occluded.size());
+  size_t failures = 0, bundles_to_skip = 0;  // where bundles don't pay, few are tried
   for (size_t first = 0; first < rays.size();) {
     const size_t end = bundle_end(first, rays.size());
     const auto bundle = rays.subspan(first, end - first);
     if (accel_.wide && bundle.size() >= least_bundle && !stop_.requested() &&
+        bundles_to_skip == 0 &&
         occluded_bundle(*accel_.wide, bundle, stop_, is_occluded.subspan(first, end - first))) {
       ray_count_ += bundle.size();
+      failures = 0;
     } else {
+      if (bundles_to_skip > 0) {
+        --bundles_to_skip;
+      } else {
+        bundles_to_skip = (size_t{1} << failures) - 1;
+        failures = std::min(failures + 1, most_failures);
+      }
       for (size_t i = first; i < end; ++i) is_occluded[i] = occluded(rays[i]) ? 1 : 0;
     }
     first = end;

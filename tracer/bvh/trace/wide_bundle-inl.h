@@ -84,7 +84,7 @@ HWY_INLINE BundleSlabs make_slabs(const Bundle& bundle) {
 }
 
 /// As push_children, for all rays: the nearest is popped first. `most`: the depth to stop at.
-HWY_INLINE StackEntry* push_bundle_children(const float* HWY_RESTRICT node,
+HWY_INLINE StackEntry* push_bundle_children(const WideTree& tree, const float* HWY_RESTRICT node,
                                             const BundleSlabs& slabs, float most,
                                             StackEntry* HWY_RESTRICT top) {
   const Floats d;
@@ -102,6 +102,7 @@ HWY_INLINE StackEntry* push_bundle_children(const float* HWY_RESTRICT node,
   const uint32_t hit_lanes = bits_of(hn::Le(near, far));
   if (hit_lanes == 0) return top;
   const auto* children = reinterpret_cast<const WideChild*>(node + 6 * width);
+  if (tree.is_larger_than_cache) prefetch(tree, children, hit_lanes);
   // The lane in the low bits makes depths unlike each other.
   const hn::RebindToUnsigned<Floats> du;
   const auto keys = hn::Or(hn::And(hn::BitCast(du, near), hn::Set(du, ~15u)), hn::Iota(du, 0));
@@ -125,7 +126,9 @@ class BundleTraversal {
                   uint8_t* is_occluded)
       : tree_(tree), rays_(rays), bundle_(bundle), hits_(hits), is_occluded_(is_occluded) {}
 
-  void run(const StopFlag& stop) {
+  /// False when it meets so many leaves that the rays had better be traced alone.
+  bool run(const StopFlag& stop) {
+    size_t leaf_budget = rays_.size() * (query == Query::closest_hit ? 32 : 1);
     const size_t width = hn::Lanes(Floats());
     const BundleSlabs slabs = make_slabs(bundle_);
     const float* const nodes = tree_.nodes.row(0);
@@ -137,13 +140,15 @@ class BundleTraversal {
       const StackEntry current = *--top;
       if (std::bit_cast<float>(current.entry) > most_) continue;
       if (current.child.is_leaf()) {
-        if (stop.requested()) return;
+        if (stop.requested()) return true;
+        if (leaf_budget-- == 0) return false;
         meet_leaf(current.child.index(), stop);
       } else {
         const float* node = nodes + current.child.index() * (WideTree::rows_a_node * width);
-        top = push_bundle_children(node, slabs, most_, top);
+        top = push_bundle_children(tree_, node, slabs, most_, top);
       }
     }
+    return true;
   }
 
  private:
@@ -297,7 +302,8 @@ bool ClosestHitsBundle(const WideTree& tree, std::span<const Ray> rays, const St
   Bundle bundle;
   if (!gather_from_origin(tree, rays, bundle)) return false;
   std::ranges::fill(hits, Hit{});
-  BundleTraversal<Query::closest_hit>(tree, rays, bundle, hits.data(), nullptr).run(stop);
+  if (!BundleTraversal<Query::closest_hit>(tree, rays, bundle, hits.data(), nullptr).run(stop))
+    return false;
   for (size_t first = 0; first < rays.size(); first += hn::Lanes(Doubles())) {
     finish_winners(tree, rays, bundle, first, hits);
   }
@@ -309,8 +315,8 @@ bool OccludedBundle(const WideTree& tree, std::span<const Ray> rays, const StopF
   Bundle bundle;
   if (!gather_from_end(tree, rays, bundle)) return false;
   std::ranges::fill(is_occluded, uint8_t{0});
-  BundleTraversal<Query::occluded>(tree, rays, bundle, nullptr, is_occluded.data()).run(stop);
-  return true;
+  return BundleTraversal<Query::occluded>(tree, rays, bundle, nullptr, is_occluded.data())
+      .run(stop);
 }
 // NOLINTEND(misc-definitions-in-headers)
 

@@ -50,7 +50,7 @@ class Flight {
       const size_t width = hn::Lanes(Floats());
       const float* node =
           tree.nodes.row(0) + current_.child.index() * (WideTree::rows_a_node * width);
-      top_ = push_children<true>(tree, node, constants_, t_far_, top_);
+      top_ = push_children<true, Prefetch::none>(tree, node, constants_, t_far_, top_);
     }
     do {
       if (top_ == stack_) return false;
@@ -99,9 +99,10 @@ class Flight {
 // NOLINTBEGIN(misc-definitions-in-headers): each instruction set has a namespace of its own.
 size_t ClosestHitsInFlight(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop,
                            std::span<Hit> hits) {
-  constexpr size_t flight_count = 12;
-  Flight all[flight_count];
-  Flight* flights[flight_count];
+  constexpr size_t max_flights = 16;
+  static const size_t flight_count = getenv("FL") ? atoi(getenv("FL")) : 12;
+  Flight all[max_flights];
+  Flight* flights[max_flights];
   size_t next = 0;  // rays before it are answered or under way
   bool is_open = true;
   const auto start_next = [&](Flight& flight) {

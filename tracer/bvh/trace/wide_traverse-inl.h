@@ -180,9 +180,11 @@ HWY_INLINE void prefetch(const WideTree& tree, const WideChild* children, uint32
   }
 }
 
+enum class Prefetch { all_children, none };
+
 /// Pushes the children whose boxes the ray may meet before t_far, so that the nearest is popped
 /// first if `is_sorted`. t_far: the distance to stop at, times 1 + 2u.
-template <bool is_sorted>
+template <bool is_sorted, Prefetch ahead = Prefetch::all_children>
 HWY_INLINE StackEntry* push_children(const WideTree& tree, const float* HWY_RESTRICT node,
                                      const RayConstants& c, float t_far,
                                      StackEntry* HWY_RESTRICT top) {
@@ -224,7 +226,7 @@ HWY_INLINE StackEntry* push_children(const WideTree& tree, const float* HWY_REST
     }
     return top;
   }
-  if (tree.is_larger_than_cache) prefetch(tree, children, bits);
+  if (ahead == Prefetch::all_children && tree.is_larger_than_cache) prefetch(tree, children, bits);
   const int second = std::countr_zero(rest);
   rest &= rest - 1;
   if (rest == 0) {
