@@ -22,7 +22,7 @@ Json describe_tree(const std::shared_ptr<const tracer::Mesh>& mesh, const TreeKe
   const Stopwatch start;
   const auto accel = build_accel(mesh, key, progress);
   Json tree = {{"builder", key.builder->name}, {"build_seconds", start.seconds()}};
-  const tracer::TreeMetrics metrics = measure(*accel);
+  const tracer::TreeMetrics metrics = measure(*accel, sah_costs(key.settings));
   add_tree(tree, metrics, measure_quality(*accel->tree, *mesh, metrics.costs, progress));
   tree["mrays_per_second"] = measure_mrays_per_second(*accel);
   return tree;

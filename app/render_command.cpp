@@ -96,7 +96,7 @@ class RenderJob {
     world_.accel = build_accel(imported_.scene.mesh,
                                {options_.builder, options_.layout, options_.build}, progress_);
     report_.seconds.build = build_start.seconds();
-    report_.tree = measure(*world_.accel);
+    report_.tree = measure(*world_.accel, sah_costs(options_.build));
     if (options_.stats_file && world_.accel->tree) measure_quality();
   }
 

@@ -33,7 +33,7 @@ BuiltTree build_tree(const std::shared_ptr<const tracer::Mesh>& mesh, const Tree
   built.accel = build_accel(mesh, key, progress);
   if (built.accel->tree) {
     built.seconds = seconds_since(start);
-    built.metrics = measure(*built.accel);
+    built.metrics = measure(*built.accel, sah_costs(key.settings));
   }
   progress.throw_if_stopped();
   return built;

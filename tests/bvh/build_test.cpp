@@ -36,8 +36,11 @@ std::vector<Box> clustered_boxes(uint32_t count) {
 
 std::vector<std::pair<std::string, std::vector<Box>>> box_sets() {
   RandomSource random(2);
-  std::vector<Box> concentric, huge, line;
+  std::vector<Box> concentric, huge, line, tiny, wide;
   for (int i = 0; i < 300; ++i) {
+    tiny.push_back(box_at(1e-38f * random.vector(-1, 1), 1e-42f));
+    const Vec3f center = random.vector(-1, 1) * Vec3f(3.4e38f, 1, 1e-30f);
+    wide.push_back({center, center});
     concentric.push_back(box_at(Vec3f(0), static_cast<float>(i)));
     huge.push_back({Vec3f(-3e38f) * random.unit(), Vec3f(3e38f) * random.unit()});
     line.push_back(box_at(Vec3f(static_cast<float>(i), 0, 0), 0));
@@ -52,6 +55,8 @@ std::vector<std::pair<std::string, std::vector<Box>>> box_sets() {
       {"concentric", concentric},
       {"huge", huge},
       {"line of points", line},
+      {"tiny", tiny},
+      {"wide", wide},
       {"lattice", primitive_boxes(lattice_quads(500, 5))},
       {"clustered", clustered_boxes(3000)},
   };
@@ -101,10 +106,16 @@ TEST(Builders, a_million_identical_boxes_are_halved_without_wasting_depth) {
   }
 }
 
-TEST(Builders, sweep_sah_reaches_the_leaf_size_whenever_the_depth_could) {
+TEST(Builders, all_but_the_median_reach_the_leaf_size_whenever_the_depth_could) {
   const std::vector<Box> boxes = clustered_boxes(3072);
-  EXPECT_GT(measure(build(*find_builder("median"), boxes, {10, 3})).largest_leaf, 3u);
-  EXPECT_EQ(measure(build(*find_builder("sweep-sah"), boxes, {10, 3})).largest_leaf, 3u);
+  for (const Builder& builder : builders()) {
+    const uint32_t largest_leaf = measure(build(builder, boxes, {10, 3})).largest_leaf;
+    if (builder.name == "median") {
+      EXPECT_GT(largest_leaf, 3u);
+    } else {
+      EXPECT_EQ(largest_leaf, 3u) << builder.name;
+    }
+  }
 }
 
 TEST(Builders, sweep_sah_costs_less_than_the_median) {
@@ -131,6 +142,95 @@ TEST(Builders, median_splits_centres_that_all_lie_on_one_side_of_the_box) {
   boxes.push_back(box_at({-30, 0, 0}, 90));
   const BvhTree tree = build(*find_builder("median"), boxes, {30, 1});
   EXPECT_EQ(validate(tree, boxes, 4), "");
+}
+
+double sah_cost(const char* builder, const std::vector<Box>& boxes,
+                const BuildSettings& settings = {}) {
+  return measure(build(*find_builder(builder), boxes, settings)).sah_cost;
+}
+
+void expect_binned_near_sweep(const Mesh& mesh) {
+  const std::vector<Box> boxes = primitive_boxes(mesh);
+  EXPECT_LE(sah_cost("binned-sah", boxes), 1.02 * sah_cost("sweep-sah", boxes))
+      << boxes.size() << " triangles";
+}
+
+TEST(Builders, binned_sah_costs_at_most_two_percent_more_than_the_sweep) {
+  expect_binned_near_sweep(rough_ball(60, 0.02f, 1));
+  expect_binned_near_sweep(random_soup(50000, 0.3f, 2));
+  expect_binned_near_sweep(random_soup(50000, 0.01f, 3));
+}
+
+TEST(Builders, binned_sah_costs_at_most_two_percent_more_than_the_sweep_on_models) {
+  for (const char* model : {"cow.obj", "stanford-bunny.obj"}) {
+    const Mesh mesh = read_plain_obj(std::string(BOXWOOD_SHARED_DIR "/models/") + model);
+    if (mesh.triangles.empty()) GTEST_SKIP() << model << " is missing";
+    expect_binned_near_sweep(mesh);
+  }
+}
+
+TEST(Builders, morton_costs_no_more_than_a_third_above_the_sweep) {
+  for (const Mesh& mesh : {rough_ball(60, 0.02f, 1), random_soup(50000, 0.01f, 3)}) {
+    const std::vector<Box> boxes = primitive_boxes(mesh);
+    EXPECT_LE(sah_cost("morton", boxes), 4.0 / 3 * sah_cost("sweep-sah", boxes));
+  }
+}
+
+TEST(Builders, morton_parts_what_lies_in_one_cell_of_its_curve) {
+  // All but one box in a billionth of the bounds.
+  std::vector<Box> boxes = primitive_boxes(random_soup(5000, 0.01f, 3));
+  for (Box& box : boxes) box = {0x1p-30f * box.min, 0x1p-30f * box.max};
+  const double alone = sah_cost("morton", boxes);
+  boxes.push_back(box_at(Vec3f(1), 0.5f));
+  BvhTree tree = build(*find_builder("morton"), boxes, {});
+  ASSERT_EQ(tree.nodes[2].count, 1u);
+  // What is below the left child, as a tree of its own; empty leaves cost nothing.
+  tree.nodes[0] = tree.nodes[1];
+  tree.nodes[1] = tree.nodes[2] = {Box(), 0, 1};
+  EXPECT_DOUBLE_EQ(measure(tree).sah_cost, alone);
+}
+
+TEST(Builders, binned_sah_of_few_primitives_is_the_full_sweep) {
+  for (uint32_t count = 1; count <= 32; ++count) {
+    const std::vector<Box> boxes = primitive_boxes(random_soup(count, 0.5f, count));
+    const double sweep = sah_cost("sweep-sah", boxes, {30, 1});
+    EXPECT_NEAR(sah_cost("binned-sah", boxes, {30, 1}), sweep, 1e-6 * sweep) << count;
+  }
+}
+
+TEST(Builders, binned_sah_splits_alike_at_every_scale) {
+  const std::vector<Box> boxes = primitive_boxes(random_soup(3000, 0.05f, 7));
+  const Builder& builder = *find_builder("binned-sah");
+  const BvhTree reference = build(builder, boxes, {});
+  for (const float scale : {0x1p-80f, 0x1p-40f, 0x1p60f, 0x1p125f}) {
+    std::vector<Box> scaled_boxes = boxes;
+    for (Box& box : scaled_boxes) box = {scale * box.min, scale * box.max};
+    EXPECT_EQ(build(builder, scaled_boxes, {}).primitives, reference.primitives) << scale;
+  }
+}
+
+uint64_t blocks_of_four(const BvhTree& tree) {
+  uint64_t blocks = 0;
+  for (const BvhNode& node : tree.nodes) blocks += (node.count + 3) / 4;
+  return blocks;
+}
+
+TEST(Builders, sah_builders_fill_blocks_when_told_their_size) {
+  const std::vector<Box> boxes = primitive_boxes(rough_ball(40, 0.02f, 1));
+  for (const char* name : {"binned-sah", "sweep-sah"}) {
+    const Builder& builder = *find_builder(name);
+    EXPECT_LT(blocks_of_four(build(builder, boxes, {.leaf_size = 8, .block_size = 4})),
+              0.95 * static_cast<double>(blocks_of_four(build(builder, boxes, {.leaf_size = 8}))))
+        << name;
+  }
+}
+
+TEST(Builders, binned_sah_takes_any_number_of_bins) {
+  const std::vector<Box> boxes = primitive_boxes(random_soup(3000, 0.05f, 7));
+  for (const int bins : {-1, 0, 1, 2, 3, 63, 64, 65, 1 << 30}) {
+    EXPECT_EQ(validate(build(*find_builder("binned-sah"), boxes, {.bins = bins}), boxes, 30), "")
+        << bins;
+  }
 }
 
 bool are_same(const BvhTree& a, const BvhTree& b) {

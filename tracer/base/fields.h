@@ -19,6 +19,7 @@ struct Field {
   T max;
   const char* help;
   Effect effect;
+  const char* unit = "";  // shown behind the value
 };
 
 }  // namespace tracer

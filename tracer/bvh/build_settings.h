@@ -14,6 +14,12 @@ inline constexpr int max_tree_depth = 64;
 struct BuildSettings {
   int max_depth = 30;  // no leaf lies deeper; the root has depth 0
   int leaf_size = 4;   // a node of at most this many primitives is not split
+  // What the surface area cost of a tree charges, relative to each other. Above the leaf size all
+  // is split, so they weigh trees against each other and do not change one.
+  double traversal_cost = 1;     // a node entered
+  double intersection_cost = 1;  // a primitive tested
+  int bins = 16;                 // along each axis, of builders that bin centres
+  int block_size = 1;            // primitives that are tested at once
 };
 
 template <class Settings, class F>
@@ -23,6 +29,16 @@ void for_each_field(Settings& settings, F&& f) {
     Field<int>{"max-depth", 1, max_tree_depth, "levels of the tree at most", Effect::rebuild});
   f(settings.leaf_size,
     Field<int>{"leaf-size", 1, 64, "nodes of so few triangles are not split", Effect::rebuild});
+  f(settings.traversal_cost,
+    Field<double>{"traversal-cost", 0.1, 10, "of a node, in the SAH cost that is shown",
+                  Effect::rebuild});
+  f(settings.intersection_cost,
+    Field<double>{"intersection-cost", 0.1, 10, "of a triangle, in the SAH cost that is shown",
+                  Effect::rebuild});
+  f(settings.bins,
+    Field<int>{"bins", 4, 64, "along each axis, for the binned SAH", Effect::rebuild});
+  f(settings.block_size,
+    Field<int>{"block-size", 1, 16, "triangles the SAH counts as one", Effect::rebuild});
 }
 
 }  // namespace tracer

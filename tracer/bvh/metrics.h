@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "tracer/bvh/build_settings.h"
 #include "tracer/bvh/tree.h"
 
 namespace tracer {
@@ -37,6 +38,10 @@ struct TreeMetrics {
   double sah_cost = 0;
   size_t bytes = 0;
 };
+
+inline SahCosts sah_costs(const BuildSettings& settings) {
+  return {settings.traversal_cost, settings.intersection_cost};
+}
 
 TreeMetrics measure(const BvhTree& tree, const SahCosts& costs = {});
 

@@ -21,8 +21,8 @@ void for_each_field(Settings& settings, F&& f) {
   f(settings.bounces,
     Field<int>{"bounces", 0, 64, "scatterings of a path at most", Effect::restart});
   f(settings.seed, Field<int>{"seed", 0, 0x7fffffff, "picks the random numbers", Effect::restart});
-  f(settings.exposure,
-    Field<double>{"exposure", -20, 20, "stops of light added to the picture", Effect::develop});
+  f(settings.exposure, Field<double>{"exposure", -20, 20, "stops of light added to the picture",
+                                     Effect::develop, " EV"});
 }
 
 }  // namespace tracer

@@ -7,7 +7,7 @@ namespace app {
 namespace {
 
 // Where controls begin and how much room units take, unscaled.
-constexpr float control_column = 104;
+constexpr float control_column = 118;
 constexpr float unit_column = 48;
 constexpr float unit_gap = 6;
 constexpr float cell_gap = 20;

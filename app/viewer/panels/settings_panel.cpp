@@ -45,8 +45,22 @@ void draw_value(const char* id, int& value, const tracer::Field<int>& field) {
 }
 
 void draw_value(const char* id, double& value, const tracer::Field<double>& field) {
-  ImGui::DragScalar(id, ImGuiDataType_Double, &value, 0.02f, &field.min, &field.max, "%+.2f EV",
-                    ImGuiSliderFlags_AlwaysClamp);
+  if (field.min < 0) {
+    const std::string format = std::string("%+.2f") + field.unit;
+    ImGui::DragScalar(id, ImGuiDataType_Double, &value, 0.02f, &field.min, &field.max,
+                      format.c_str(), ImGuiSliderFlags_AlwaysClamp);
+    return;
+  }
+  // Factors, of which a half is as far from one as two.
+  const bool is_factor = field.min > 0;
+  const double part =
+      is_factor ? std::log(value / field.min) / std::log(field.max / field.min) : value / field.max;
+  begin_slider(part, 0);
+  const std::string format = std::string("%.2f") + field.unit;
+  ImGui::SliderScalar(id, ImGuiDataType_Double, &value, &field.min, &field.max, format.c_str(),
+                      ImGuiSliderFlags_AlwaysClamp |
+                          (is_factor ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None));
+  end_slider();
 }
 
 template <class Settings>

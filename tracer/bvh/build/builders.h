@@ -19,4 +19,16 @@ BvhTree build_median(const Primitives& primitives, const BuildSettings& settings
 BvhTree build_sweep_sah(const Primitives& primitives, const BuildSettings& settings,
                         Progress& progress);
 
+/// Tries the planes between equal bins over the bounds of the centres on all three axes, and below
+/// a few dozen primitives every plane; the most even of equals. [Wald 2007] Leaves and depth as
+/// build_sweep_sah.
+BvhTree build_binned_sah(const Primitives& primitives, const BuildSettings& settings,
+                         Progress& progress);
+
+/// Sorts the centres along a Z-order curve and splits where the highest bit of their codes changes
+/// [Lauterbach 2009]; primitives in one cell of the curve are sorted along one of their own. Leaves
+/// and depth as build_sweep_sah.
+BvhTree build_morton(const Primitives& primitives, const BuildSettings& settings,
+                     Progress& progress);
+
 }  // namespace tracer

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <span>
 #include <vector>
 
 #include "tracer/base/parallel.h"
 #include "tracer/base/progress.h"
+#include "tracer/bvh/build/tree_part.h"
 #include "tracer/bvh/build_settings.h"
-#include "tracer/bvh/tree.h"
 
 namespace tracer {
 
@@ -22,6 +21,10 @@ struct PrimitiveRange {
   uint32_t count() const { return end - begin; }
 };
 
+/// Ranges above this size are split in parallel: by the range alone, as the order of nodes depends
+/// on it.
+inline constexpr uint32_t task_size = 8192;
+
 /// Calls f(i) for each i in the range, looking at the stop flag every few thousand.
 template <class F>
 void for_each_position(PrimitiveRange range, const Progress& progress, F&& f) {
@@ -31,6 +34,22 @@ void for_each_position(PrimitiveRange range, const Progress& progress, F&& f) {
     const uint32_t end = begin + std::min(positions_a_look, range.end - begin);
     for (uint32_t i = begin; i < end; ++i) f(i);
   }
+}
+
+/// Gives `part` two below it: calls build_left(part) and build_right(part), at the same time where
+/// there are threads. Throws Cancelled where either was left out.
+template <class F, class G>
+void build_both(TreePart& part, F&& build_left, G&& build_right) {
+  part.left = std::make_unique<TreePart>();
+  part.right = std::make_unique<TreePart>();
+  parallel_invoke([&] { build_left(*part.left); }, [&] { build_right(*part.right); });
+  // Tasks are skipped, without an exception here, once one elsewhere has thrown.
+  if (part.left->nodes.empty() || part.right->nodes.empty()) throw Cancelled{};
+}
+
+/// Room for most subtrees that one task makes.
+inline size_t likely_node_count(uint32_t primitive_count, int leaf_size) {
+  return 2 + 4 * std::min(primitive_count, task_size) / static_cast<uint32_t>(leaf_size);
 }
 
 /// Splits ranges until they are small or deep enough. A Splitter has, callable at the same time
@@ -55,26 +74,35 @@ class Subdivision {
 
   BvhTree build() {
     BvhTree tree;
-    if (primitive_count_ > 0) tree.nodes = subtree({0, primitive_count_}, 0);
+    if (primitive_count_ > 0) {
+      TreePart top;
+      build_part({0, primitive_count_}, 0, top);
+      tree.nodes = join(top).nodes;
+    }
     tree.primitives = splitter_.take_order();
     return tree;
   }
 
  private:
-  // Ranges above this size are split in parallel. A function of the range alone, as the order of
-  // nodes depends on it.
-  static constexpr uint32_t task_size = 8192;
-
-  std::vector<BvhNode> subtree(PrimitiveRange range, int depth) {
-    std::vector<BvhNode> nodes(1);
-    if (range.count() > task_size) {
-      subdivide_in_parallel(nodes, range, depth);
-    } else {
+  void build_part(PrimitiveRange range, int depth, TreePart& part) {
+    if (range.count() <= task_size || is_leaf(range, depth)) {
       progress_.throw_if_stopped();
-      subdivide(nodes, 0, range, depth);
+      part.nodes.resize(1);
+      subdivide(part.nodes, 0, range, depth);
       report_placed(range.count());
+      return;
     }
-    return nodes;
+    const Box bounds = splitter_.bounds(range);
+    part.nodes = {{bounds}};
+    const uint32_t middle = splitter_.split(range, bounds, max_depth_ - depth);
+    build_both(
+        part,
+        [&](TreePart& left) {
+          build_part({range.begin, middle}, depth + 1, left);
+        },
+        [&](TreePart& right) {
+          build_part({middle, range.end}, depth + 1, right);
+        });
   }
 
   // Turns nodes[node] into the root over the range and appends what is below it.
@@ -90,43 +118,6 @@ class Subdivision {
     nodes.resize(nodes.size() + 2);
     subdivide(nodes, children, {range.begin, middle}, depth + 1);
     subdivide(nodes, children + 1, {middle, range.end}, depth + 1);
-  }
-
-  void subdivide_in_parallel(std::vector<BvhNode>& nodes, PrimitiveRange range, int depth) {
-    const Box bounds = splitter_.bounds(range);
-    if (is_leaf(range, depth)) {
-      nodes[0] = {bounds, range.begin, range.count()};
-      report_placed(range.count());
-      return;
-    }
-    const uint32_t middle = splitter_.split(range, bounds, max_depth_ - depth);
-    std::vector<BvhNode> left, right;
-    parallel_invoke(
-        [&] {
-          left = subtree({range.begin, middle}, depth + 1);
-        },
-        [&] {
-          right = subtree({middle, range.end}, depth + 1);
-        });
-    // Tasks are skipped, without an exception here, once one elsewhere has thrown.
-    if (left.empty() || right.empty()) throw Cancelled{};
-    nodes.reserve(1 + left.size() + right.size());
-    nodes[0] = {bounds, 1, 0};
-    nodes.push_back(left[0]);
-    nodes.push_back(right[0]);
-    append_below_root(nodes, 1, left);
-    append_below_root(nodes, 2, right);
-  }
-
-  // Appends all but the root of `subtree`, whose root is at nodes[root] already.
-  static void append_below_root(std::vector<BvhNode>& nodes, uint32_t root,
-                                std::span<const BvhNode> subtree) {
-    const auto shift = static_cast<uint32_t>(nodes.size()) - 1;
-    nodes.insert(nodes.end(), subtree.begin() + 1, subtree.end());
-    if (!nodes[root].is_leaf()) nodes[root].first += shift;
-    for (size_t i = shift + 1; i < nodes.size(); ++i) {
-      if (!nodes[i].is_leaf()) nodes[i].first += shift;
-    }
   }
 
   bool is_leaf(PrimitiveRange range, int depth) const {

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "tracer/bvh/build/builders.h"
+#include "tracer/bvh/build/split_cost.h"
 #include "tracer/bvh/build/subdivide.h"
 
 namespace tracer {
@@ -12,9 +13,10 @@ namespace {
 // Sorted once by centre along each axis; every split keeps all three orders sorted.
 class SweepSplitter {
  public:
-  SweepSplitter(std::span<const Box> boxes, int leaf_size, const Progress& progress)
+  SweepSplitter(std::span<const Box> boxes, const BuildSettings& settings, const Progress& progress)
       : boxes_(boxes),
-        leaf_size_(leaf_size),
+        leaf_size_(std::max(settings.leaf_size, 1)),
+        block_count_(settings),
         progress_(progress),
         right_areas_(boxes.size()),
         scratch_(boxes.size()),
@@ -29,7 +31,7 @@ class SweepSplitter {
   }
 
   uint32_t split(PrimitiveRange range, const Box& /*bounds*/, int levels_left) {
-    const uint32_t limit = side_limit(range.count(), levels_left);
+    const uint32_t limit = side_limit(range.count(), leaf_size_, levels_left);
     Candidate best = best_candidate(range, 0, limit);
     for (int axis = 1; axis < 3; ++axis) {
       const Candidate candidate = best_candidate(range, axis, limit);
@@ -75,13 +77,6 @@ class SweepSplitter {
     std::ranges::transform(keys, orders_[axis].begin(), &Key::primitive);
   }
 
-  // The most primitives either side may have, so that the levels below it can reach the leaf size;
-  // no limit where they cannot in any case.
-  uint32_t side_limit(uint32_t count, int levels_left) const {
-    const uint64_t limit = static_cast<uint64_t>(leaf_size_) << std::min(levels_left - 1, 32);
-    return count <= 2 * limit ? static_cast<uint32_t>(std::min<uint64_t>(limit, count)) : count;
-  }
-
   Candidate best_candidate(PrimitiveRange range, int axis, uint32_t limit) {
     const std::vector<uint32_t>& order = orders_[axis];
     const uint32_t count = range.count();
@@ -100,9 +95,12 @@ class SweepSplitter {
       if (larger_side > limit) return;
       const double left_area = left.half_area();
       const double right_area = right_areas_[i + 1];
-      // left_area * left_count + right_area * right_count, arranged so that boxes that are all
-      // the same cost exactly the same at every plane.
-      const double cost = right_area * count + (left_area - right_area) * left_count;
+      const double left_blocks = block_count_(left_count);
+      const double right_blocks = block_count_(count - left_count);
+      // left_area * left_blocks + right_area * right_blocks, arranged so that boxes that are all
+      // the same cost exactly the same at every plane of as many blocks.
+      const double cost =
+          right_area * (left_blocks + right_blocks) + (left_area - right_area) * left_blocks;
       const Candidate candidate{cost, larger_side, axis, left_count};
       if (candidate.is_better_than(best)) best = candidate;
     });
@@ -126,6 +124,7 @@ class SweepSplitter {
 
   const std::span<const Box> boxes_;
   const int leaf_size_;
+  const BlockCount block_count_;
   const Progress& progress_;
   std::array<std::vector<uint32_t>, 3> orders_;  // primitives; each node owns a range of all three
   std::vector<double> right_areas_;  // by position: of all from there to the range's end
@@ -137,7 +136,7 @@ class SweepSplitter {
 
 BvhTree build_sweep_sah(const Primitives& primitives, const BuildSettings& settings,
                         Progress& progress) {
-  SweepSplitter splitter(primitives.boxes, std::max(settings.leaf_size, 1), progress);
+  SweepSplitter splitter(primitives.boxes, settings, progress);
   const auto count = static_cast<uint32_t>(primitives.boxes.size());
   return Subdivision(splitter, count, settings, progress).build();
 }

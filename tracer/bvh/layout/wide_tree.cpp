@@ -69,6 +69,7 @@ class Collapse {
           std::max({wide_.max_coordinate, std::abs(bounds.min[axis]), std::abs(bounds.max[axis])});
     }
     fill_node(0, {0, 0});
+    wide_.typical_extent = median_extent();
     return std::move(wide_);
   }
 
@@ -88,6 +89,14 @@ class Collapse {
     const uint32_t* begin() const { return nodes.data(); }
     const uint32_t* end() const { return nodes.data() + count; }
   };
+
+  float median_extent() const {
+    std::vector<float> extents(wide_.block_infos.size());
+    std::ranges::transform(wide_.block_infos, extents.begin(), &WideTree::BlockInfo::extent);
+    const auto middle = extents.begin() + static_cast<ptrdiff_t>(extents.size() / 2);
+    std::ranges::nth_element(extents, middle);
+    return *middle;
+  }
 
   void count_primitives() {
     for (size_t i = tree_.nodes.size(); i-- > 0;) {

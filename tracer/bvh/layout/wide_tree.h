@@ -61,6 +61,7 @@ struct WideTree {
   FloatRows blocks;
   std::vector<BlockInfo> block_infos;
   float max_coordinate = 0;           // of all boxes, absolute
+  float typical_extent = 0;           // median of block_infos' extents
   bool is_larger_than_cache = false;  // a core's own
 
   size_t bytes() const {

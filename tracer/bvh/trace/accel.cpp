@@ -60,9 +60,9 @@ Accel make_accel(std::shared_ptr<const Mesh> mesh, std::optional<BvhTree> tree,
   return accel;
 }
 
-TreeMetrics measure(const Accel& accel) {
+TreeMetrics measure(const Accel& accel, const SahCosts& costs) {
   TreeMetrics metrics;
-  if (accel.tree) metrics = measure(*accel.tree);
+  if (accel.tree) metrics = measure(*accel.tree, costs);
   if (accel.wide) metrics.bytes += accel.wide->bytes();
   return metrics;
 }

@@ -41,7 +41,7 @@ Accel make_accel(std::shared_ptr<const Mesh> mesh, std::optional<BvhTree> tree,
                  const Layout& layout, Progress& progress);
 
 /// Of its tree, with the bytes of both forms; all 0 without a tree.
-TreeMetrics measure(const Accel& accel);
+TreeMetrics measure(const Accel& accel, const SahCosts& costs = {});
 
 /// Answers the rays of one tile or one test on one thread, and counts them. When `stop` is
 /// requested, answers may be misses: the caller looks at the flag before it keeps a result.

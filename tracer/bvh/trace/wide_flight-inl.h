@@ -28,14 +28,14 @@ size_t ClosestHitsInFlight(const WideTree&, std::span<const Ray>, const StopFlag
 /// One ray under way.
 class Flight {
  public:
-  /// False for a ray out of the filter's range.
+  /// False for a ray out of the filter's range or in need of Slabs::exact.
   bool start(const WideTree& tree, const Ray& ray) {
-    if (!prepare(tree, ray, constants_)) return false;
+    if (!prepare(tree, ray, constants_) || constants_.is_far_reaching) return false;
     ray_ = &ray;
     top_ = stack_;
     current_ = {WideChild::node(0), std::bit_cast<uint32_t>(constants_.t_min)};
     best_ = {};
-    t_far_ = round_up(ray.t_max) * (1 + 2 * u);
+    t_far_ = round_up(ray.t_max) * (1 + 8 * u);
     return true;
   }
 
@@ -50,7 +50,7 @@ class Flight {
       const size_t width = hn::Lanes(Floats());
       const float* node =
           tree.nodes.row(0) + current_.child.index() * (WideTree::rows_a_node * width);
-      top_ = push_children<true, Prefetch::none>(tree, node, constants_, t_far_, top_);
+      top_ = push_children<Slabs::fused, true>(tree, node, constants_, t_far_, top_);
     }
     do {
       if (top_ == stack_) return false;
@@ -70,7 +70,7 @@ class Flight {
       const WideTree::BlockInfo& info = tree.block_infos[block];
       const float* rows = tree.blocks.row(0) + block * (WideTree::rows_a_block * width);
       const BlockHits hits =
-          hit_triangles<Query::closest_hit>(rows, info, constants_, entry, t_far_);
+          hit_triangles<Query::closest_hit, Slabs::fused>(rows, info, constants_, entry, t_far_);
       for (uint32_t bits = hits.possible; bits != 0; bits &= bits - 1) {
         const float* v = rows + std::countr_zero(bits);
         const auto vertex = [&](size_t row) {
@@ -81,7 +81,7 @@ class Flight {
         const Hit hit{found->t, found->u, found->v, std::bit_cast<uint32_t>(v[9 * width])};
         if (!hit.is_closer_than(best_)) continue;
         best_ = hit;
-        t_far_ = std::min(t_far_, round_up(hit.t) * (1 + 2 * u));
+        t_far_ = std::min(t_far_, round_up(hit.t) * (1 + 8 * u));
       }
       if (info.is_last) return;
     }
@@ -99,10 +99,9 @@ class Flight {
 // NOLINTBEGIN(misc-definitions-in-headers): each instruction set has a namespace of its own.
 size_t ClosestHitsInFlight(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop,
                            std::span<Hit> hits) {
-  constexpr size_t max_flights = 16;
-  static const size_t flight_count = getenv("FL") ? atoi(getenv("FL")) : 12;
-  Flight all[max_flights];
-  Flight* flights[max_flights];
+  constexpr size_t flight_count = 8;
+  Flight all[flight_count];
+  Flight* flights[flight_count];
   size_t next = 0;  // rays before it are answered or under way
   bool is_open = true;
   const auto start_next = [&](Flight& flight) {

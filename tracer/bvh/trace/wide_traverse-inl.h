@@ -60,12 +60,19 @@ constexpr int stack_capacity = max_tree_depth * 16;
 // Of one leaf, between two looks at the stop flag: some 10 microseconds.
 constexpr size_t blocks_a_look = 256;
 
+/// How the distance of a plane is computed. With one instruction, and an error relative to all
+/// coordinates of the scene; or with two, and an error relative to that distance: for rays in
+/// scenes much larger than their leaves.
+enum class Slabs { fused, exact };
+
 /// What of a ray the slab tests and the triangle filter need, computed once.
 struct RayConstants {
   // One lane an axis, and one unused.
   alignas(16) float inverse[4];
-  alignas(16) float near_offset[4];  // near plane * inverse + near_offset <= true distance
-  alignas(16) float far_offset[4];   // far plane * inverse + far_offset >= true distance
+  alignas(16) float near_offset[4];  // Slabs::fused: plane * inverse + offset,
+  alignas(16) float far_offset[4];   // the near one at most and the far one at least as far
+  alignas(16) float origin[4];       // Slabs::exact: (plane - origin) * inverse, within `pad` and
+  alignas(16) float pad[4];          // 3u relative
   alignas(16) uint32_t near_row[4];  // of a node, in floats: min, or max for a negative direction
   alignas(16) uint32_t far_row[4];
   uint32_t row_x, row_y, row_z;  // of a vertex in a block; z: the direction's largest component
@@ -73,6 +80,7 @@ struct RayConstants {
   float shear_x, shear_y;
   float toward;             // sign of the largest component
   float largest_component;  // its size
+  bool is_far_reaching;     // Slabs::exact pays
   float slack;              // how far outside its box the padded slabs let a ray pass, at most
   float t_min;              // rounded down
 };
@@ -108,22 +116,30 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& ray, RayConstants& c) {
   if (!(reach > least_coordinate && reach < greatest_coordinate &&
         c.largest_component < greatest_coordinate && c.largest_component > least_coordinate))
     return false;
-  c.slack = 32 * u * reach;
   auto inverse = hn::Div(hn::Set(d4, 1.0f), component);
-  auto pad = hn::Mul(hn::Abs(inverse), hn::Set(d4, 8 * u * reach));
   // A component so small that it moves the ray by less than the slack within the scene counts as
   // this small, and its slab is widened to last for all distances that matter.
   const auto smallest = hn::Set(d4, 0x1p-40f * c.largest_component);
   const auto is_parallel = hn::Lt(size, smallest);
-  if (HWY_UNLIKELY(!hn::AllFalse(d4, is_parallel))) {
+  const bool has_parallel = !hn::AllFalse(d4, is_parallel);
+  if (HWY_UNLIKELY(has_parallel)) {
     inverse = hn::Div(hn::Set(d4, 1.0f), hn::CopySign(hn::Max(size, smallest), component));
-    pad = hn::Mul(hn::Abs(inverse), hn::IfThenElse(is_parallel, hn::Set(d4, 16 * u * reach),
-                                                   hn::Set(d4, 8 * u * reach)));
   }
-  const auto offset = hn::Neg(hn::Mul(origin, inverse));
+  c.slack = 32 * u * reach;
+  c.is_far_reaching = c.slack > tree.typical_extent * 0x1p-6f;
+  const auto wide_pad = hn::Mul(hn::Abs(inverse), hn::Set(d4, 16 * u * reach));
+  if (HWY_LIKELY(!c.is_far_reaching)) {
+    const auto offset = hn::Neg(hn::Mul(origin, inverse));
+    const auto pad = hn::IfThenElse(is_parallel, wide_pad, hn::Mul(wide_pad, hn::Set(d4, 0.5f)));
+    hn::Store(hn::Sub(offset, pad), d4, c.near_offset);
+    hn::Store(hn::Add(offset, pad), d4, c.far_offset);
+  } else {
+    const auto least_pad = hn::Set(d4, FLT_MIN);  // what underflows rounds absolutely
+    if (!has_parallel) c.slack = 0;
+    hn::Store(origin, d4, c.origin);
+    hn::Store(hn::IfThenElse(is_parallel, wide_pad, least_pad), d4, c.pad);
+  }
   hn::Store(inverse, d4, c.inverse);
-  hn::Store(hn::Sub(offset, pad), d4, c.near_offset);
-  hn::Store(hn::Add(offset, pad), d4, c.far_offset);
   const auto min_row = hn::Mul(hn::Iota(du4, 0), hn::Set(du4, 2 * width));
   const auto max_row = hn::Add(min_row, hn::Set(du4, width));
   const auto is_negative = hn::MaskFromVec(hn::BitCast(
@@ -180,29 +196,33 @@ HWY_INLINE void prefetch(const WideTree& tree, const WideChild* children, uint32
   }
 }
 
-enum class Prefetch { all_children, none };
-
 /// Pushes the children whose boxes the ray may meet before t_far, so that the nearest is popped
-/// first if `is_sorted`. t_far: the distance to stop at, times 1 + 2u.
-template <bool is_sorted, Prefetch ahead = Prefetch::all_children>
+/// first if `is_sorted`. t_far: the distance to stop at, times 1 + 8u.
+template <Slabs slabs, bool is_sorted>
 HWY_INLINE StackEntry* push_children(const WideTree& tree, const float* HWY_RESTRICT node,
                                      const RayConstants& c, float t_far,
                                      StackEntry* HWY_RESTRICT top) {
   const Floats d;
   const size_t width = hn::Lanes(d);
-  const auto near_plane = [&](int axis) {
-    return hn::MulAdd(hn::Load(d, node + c.near_row[axis]), hn::Set(d, c.inverse[axis]),
-                      hn::Set(d, c.near_offset[axis]));
+  const auto plane = [&](uint32_t row, int axis, float sign) {
+    const auto position = hn::Load(d, node + row);
+    const auto inverse = hn::Set(d, c.inverse[axis]);
+    if constexpr (slabs == Slabs::fused) {
+      const float offset = (sign < 0 ? c.near_offset : c.far_offset)[axis];
+      return hn::MulAdd(position, inverse, hn::Set(d, offset));
+    } else {
+      const auto distance = hn::Sub(position, hn::Set(d, c.origin[axis]));
+      return hn::MulAdd(distance, inverse, hn::Set(d, sign * c.pad[axis]));
+    }
   };
-  const auto far_plane = [&](int axis) {
-    return hn::MulAdd(hn::Load(d, node + c.far_row[axis]), hn::Set(d, c.inverse[axis]),
-                      hn::Set(d, c.far_offset[axis]));
-  };
+  const auto near_plane = [&](int axis) { return plane(c.near_row[axis], axis, -1); };
+  const auto far_plane = [&](int axis) { return plane(c.far_row[axis], axis, 1); };
   const auto near =
       hn::Max(hn::Max(near_plane(0), near_plane(1)), hn::Max(near_plane(2), hn::Set(d, c.t_min)));
   const auto far =
       hn::Min(hn::Min(far_plane(0), far_plane(1)), hn::Min(far_plane(2), hn::Set(d, t_far)));
-  uint32_t bits = bits_of(hn::Le(near, far));
+  const auto widest = slabs == Slabs::fused ? far : hn::Mul(far, hn::Set(d, 1 + 8 * u));
+  uint32_t bits = bits_of(hn::Le(near, widest));
   if (bits == 0) return top;
 
   const auto* children = reinterpret_cast<const WideChild*>(node + 6 * width);
@@ -226,7 +246,7 @@ HWY_INLINE StackEntry* push_children(const WideTree& tree, const float* HWY_REST
     }
     return top;
   }
-  if (ahead == Prefetch::all_children && tree.is_larger_than_cache) prefetch(tree, children, bits);
+  if (tree.is_larger_than_cache) prefetch(tree, children, bits);
   const int second = std::countr_zero(rest);
   rest &= rest - 1;
   if (rest == 0) {
@@ -258,14 +278,17 @@ struct BlockHits {
 
 /// The sheared edge functions [Woop 2013] of the float-rounded vertices, with `bound` at least
 /// their error.
-template <Query query>
+template <Query query, Slabs slabs>
 HWY_INLINE BlockHits hit_triangles(const float* HWY_RESTRICT block, const WideTree::BlockInfo& info,
                                    const RayConstants& c, float entry, float t_far) {
   const Floats d;
   const size_t width = hn::Lanes(d);
   // Both hold for every vertex of a leaf whose padded box the ray meets at `entry`.
-  const float extent = info.extent + c.slack;
-  const float distance = entry * c.largest_component + extent;
+  const float path = entry * c.largest_component;
+  const float extent = slabs == Slabs::fused
+                           ? info.extent + c.slack
+                           : (info.extent + c.slack) * (1 + 64 * u) + 32 * u * path;
+  const float distance = path + extent;
   const float spread = 4 * extent;
   const float vertex_error = 10 * u * distance;
   const float bound =
@@ -343,43 +366,39 @@ struct CountingProbe {
   void exact_test() { ++counts.exact_tests; }
 };
 
-/// Nothing for a ray out of the filter's range.
-template <Query query, class Probe>
-HWY_INLINE bool traverse(const WideTree& tree, const Ray& ray, const StopFlag& stop, Probe probe,
-                         Hit& best) {
+template <Query query, Slabs slabs, class Probe>
+HWY_NOINLINE void traverse(const WideTree& tree, const Ray& ray, const RayConstants& constants,
+                           const StopFlag& stop, Probe probe, Hit& best) {
   const Floats d;
   const size_t width = hn::Lanes(d);
-  RayConstants constants;
-  if (HWY_UNLIKELY(!prepare(tree, ray, constants))) return false;
   const float* const nodes = tree.nodes.row(0);
   const float* const blocks = tree.blocks.row(0);
   const WideTree::BlockInfo* const infos = tree.block_infos.data();
   StackEntry stack[stack_capacity];
   StackEntry* top = stack;
   StackEntry current{WideChild::node(0), std::bit_cast<uint32_t>(constants.t_min)};
-  float t_far = round_up(ray.t_max) * (1 + 2 * u);
+  float t_far = round_up(ray.t_max) * (1 + 8 * u);
   for (;;) {
     while (!current.child.is_leaf()) {
       probe.node();
       const float* node = nodes + current.child.index() * (WideTree::rows_a_node * width);
-      top = push_children<query == Query::closest_hit>(tree, node, constants, t_far, top);
-      if (top == stack) return true;
+      top = push_children<slabs, query == Query::closest_hit>(tree, node, constants, t_far, top);
+      if (top == stack) return;
       current = *--top;
     }
     const float entry = std::bit_cast<float>(current.entry);
     if (entry <= t_far) {
       const size_t first_block = current.child.index();
       for (size_t block = first_block;; ++block) {
-        if ((block - first_block) % blocks_a_look == blocks_a_look - 1 && stop.requested())
-          return true;
+        if ((block - first_block) % blocks_a_look == blocks_a_look - 1 && stop.requested()) return;
         const WideTree::BlockInfo& info = infos[block];
         probe.block(info);
         const float* rows = blocks + block * (WideTree::rows_a_block * width);
-        const BlockHits hits = hit_triangles<query>(rows, info, constants, entry, t_far);
+        const BlockHits hits = hit_triangles<query, slabs>(rows, info, constants, entry, t_far);
         if constexpr (query == Query::occluded) {
           if (hits.certain != 0) {
             best.primitive = 0;
-            return true;
+            return;
           }
         }
         for (uint32_t bits = hits.possible; bits != 0; bits &= bits - 1) {
@@ -393,21 +412,35 @@ HWY_INLINE bool traverse(const WideTree& tree, const Ray& ray, const StopFlag& s
           const Hit hit{found->t, found->u, found->v, std::bit_cast<uint32_t>(v[9 * width])};
           if constexpr (query == Query::occluded) {
             best = hit;
-            return true;
+            return;
           }
           if (hit.is_closer_than(best)) {
             best = hit;
-            t_far = std::min(t_far, round_up(hit.t) * (1 + 2 * u));
+            t_far = std::min(t_far, round_up(hit.t) * (1 + 8 * u));
           }
         }
         if (info.is_last) break;
       }
     }
     do {
-      if (top == stack) return true;
+      if (top == stack) return;
       current = *--top;
     } while (std::bit_cast<float>(current.entry) > t_far);
   }
+}
+
+/// False for a ray out of the filter's range.
+template <Query query, class Probe>
+HWY_INLINE bool answer(const WideTree& tree, const Ray& ray, const StopFlag& stop, Probe probe,
+                       Hit& hit) {
+  RayConstants constants;
+  if (HWY_UNLIKELY(!prepare(tree, ray, constants))) return false;
+  if (HWY_LIKELY(!constants.is_far_reaching)) {
+    traverse<query, Slabs::fused>(tree, ray, constants, stop, probe, hit);
+  } else {
+    traverse<query, Slabs::exact>(tree, ray, constants, stop, probe, hit);
+  }
+  return true;
 }
 
 // NOLINTBEGIN(misc-definitions-in-headers): each instruction set has a namespace of its own.
@@ -416,21 +449,21 @@ inline int KernelWidth() {
 }
 
 inline bool ClosestHit(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit) {
-  return traverse<Query::closest_hit>(tree, ray, stop, NoProbe{}, hit);
+  return answer<Query::closest_hit>(tree, ray, stop, NoProbe{}, hit);
 }
 
 inline bool Occluded(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit) {
-  return traverse<Query::occluded>(tree, ray, stop, NoProbe{}, hit);
+  return answer<Query::occluded>(tree, ray, stop, NoProbe{}, hit);
 }
 
 inline bool CountClosestHit(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit,
-                     VisitCounts& counts) {
-  return traverse<Query::closest_hit>(tree, ray, stop, CountingProbe{counts}, hit);
+                            VisitCounts& counts) {
+  return answer<Query::closest_hit>(tree, ray, stop, CountingProbe{counts}, hit);
 }
 
 inline bool CountOccluded(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit,
-                   VisitCounts& counts) {
-  return traverse<Query::occluded>(tree, ray, stop, CountingProbe{counts}, hit);
+                          VisitCounts& counts) {
+  return answer<Query::occluded>(tree, ray, stop, CountingProbe{counts}, hit);
 }
 // NOLINTEND(misc-definitions-in-headers)
 

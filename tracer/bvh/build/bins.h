@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Primitives counted by where their centres lie, and the best plane between two bins. [Wald 2007]
+#pragma once
+
+#include <array>
+#include <bit>
+#include <span>
+
+#include "tracer/bvh/build/reference.h"
+#include "tracer/bvh/build/split_cost.h"
+
+namespace tracer {
+
+inline constexpr int max_bin_count = 64;
+
+/// Left are the bins below `bin` along `axis`.
+struct BinSplit {
+  int axis = 0;
+  int bin = 0;
+
+  bool exists() const { return bin > 0; }
+};
+
+/// Equal bins along each axis over the bounds of half centres; an axis along which they cannot be
+/// told apart has one bin.
+class Binning {
+ public:
+  Binning(const Box4& half_centers, int bin_count)
+      : bin_count_(bin_count), origin_(half_centers.min) {
+    // A little less, so that the last centre falls into the last bin after rounding.
+    const Float4 scale = (static_cast<float>(bin_count) * 0.9999f) / (half_centers.max - origin_);
+    scale_ = scale < Box4::infinity ? scale : Float4{};
+  }
+
+  int bin_count() const { return bin_count_; }
+  bool parts_something() const { return scale_[0] + scale_[1] + scale_[2] > 0; }
+  Int4 bins(const Box4& box) const {
+    return __builtin_convertvector((half_center_of(box) - origin_) * scale_, Int4);
+  }
+
+ private:
+  friend class SideTest;
+
+  int bin_count_;
+  Float4 origin_;
+  Float4 scale_;
+};
+
+/// Whether a centre lies right of a split, in all lanes; decided by the same bits as its bin.
+class SideTest {
+ public:
+  SideTest(const Binning& binning, BinSplit split)
+      : axis_(split.axis),
+        origin_(Float4{} + binning.origin_[axis_]),
+        scale_(Float4{} + binning.scale_[axis_]),
+        bin_(Float4{} + static_cast<float>(split.bin)) {}
+
+  Int4 operator()(const Reference& reference) const {
+    const Float4 min = Float4{} + reference.min[axis_];
+    const Float4 max = Float4{} + reference.max[axis_];
+    return (half_center_of({min, max}) - origin_) * scale_ >= bin_;
+  }
+
+ private:
+  int axis_;
+  Float4 origin_;
+  Float4 scale_;
+  Float4 bin_;
+};
+
+/// Counts and bounds of the primitives in each bin. Nothing is initialised until cleared.
+class Bins {
+ public:
+  void clear(int bin_count);
+  void add(std::span<const Reference> references, const Binning& binning);
+  void add(const Bins& other);
+
+  /// The cheapest plane that leaves something, and at most `limit`, on each side; the most even of
+  /// equals. Areas are taken of boxes scaled by `scale`.
+  BinSplit best_split(const BlockCount& block_count, float scale, uint32_t limit) const;
+  uint32_t left_count(BinSplit split) const;
+  std::array<Box4, 2> side_bounds(BinSplit split) const;
+
+ private:
+  struct alignas(128) Bin {
+    Float4 min[3];  // by axis
+    Float4 max[3];
+    uint32_t counts[4];
+
+    Box4 box(int axis) const { return {min[axis], max[axis]}; }
+    void extend(int axis, const Box4& box) {
+      min[axis] = min_of(box.min, min[axis]);
+      max[axis] = max_of(box.max, max[axis]);
+    }
+    Int4 count_lanes() const { return std::bit_cast<Int4>(counts); }
+  };
+
+  int bin_count_;
+  std::array<Bin, max_bin_count> bins_;
+};
+
+}  // namespace tracer
