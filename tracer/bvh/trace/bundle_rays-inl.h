@@ -8,6 +8,7 @@
 #endif
 
 #include <algorithm>
+#include <bit>
 #include <cfloat>
 #include <cmath>
 #include <limits>
@@ -105,9 +106,11 @@ HWY_INLINE bool find_slopes(Bundle& bundle) {
   return hn::AllTrue(d, in_range) && hn::GetLane(spread) <= greatest_spread;
 }
 
-/// Rays that are not there have the slopes of the first, and no hit counts.
+/// No ray has a winner yet. Rays that are not there have the slopes of the first, and no hit
+/// counts.
 HWY_INLINE void fill_last_group(Bundle& bundle) {
   const size_t width = hn::Lanes(Floats());
+  std::ranges::fill(bundle.winner, no_winner);
   bundle.group_count = (bundle.ray_count + width - 1) / width;
   for (size_t i = bundle.ray_count; i < bundle.group_count * width; ++i) {
     bundle.slope_x[i] = bundle.slope_x[0];
@@ -115,7 +118,6 @@ HWY_INLINE void fill_last_group(Bundle& bundle) {
     bundle.speed[i] = bundle.speed[0];
     bundle.start[i] = 0;
     bundle.least[i] = bundle.most[i] = nothing_counts;
-    bundle.winner[i] = no_winner;
   }
 }
 
@@ -135,6 +137,32 @@ HWY_INLINE void set_point(const WideTree& tree, const Vec3f& point, Bundle& bund
   bundle.reach = largest_component(point) + tree.max_coordinate;
 }
 
+/// Bits that a and b do not have in common. Compares without a branch; tells 0 from -0.
+HWY_INLINE uint32_t differing_bits(const Vec3f& a, const Vec3f& b) {
+  const auto differing = [](float x, float y) {
+    return std::bit_cast<uint32_t>(x) ^ std::bit_cast<uint32_t>(y);
+  };
+  return differing(a.x, b.x) | differing(a.y, b.y) | differing(a.z, b.z);
+}
+
+/// Which depths count, of rays from the point.
+HWY_INLINE void set_depths(std::span<const Ray> rays, Bundle& bundle) {
+  for (size_t i = 0; i < rays.size(); ++i) {
+    const auto depth_at = [&](double t) {
+      return static_cast<float>(std::min(t, double{FLT_MAX})) * bundle.speed[i];
+    };
+    bundle.start[i] = depth_at(rays[i].t_min) * (1 + 8 * u);
+    bundle.least[i] = depth_at(rays[i].t_max) * (1 - 8 * u);
+    bundle.most[i] = depth_at(rays[i].t_max) * (1 + 8 * u);
+  }
+}
+
+HWY_INLINE void set_all_depths(Bundle& bundle) {
+  std::ranges::fill(bundle.start, 0.0f);
+  std::ranges::fill(bundle.least, FLT_MAX);
+  std::ranges::fill(bundle.most, FLT_MAX);
+}
+
 /// Camera rays. False where they have no common origin, point elsewhere or are out of range.
 HWY_INLINE bool gather_from_origin(const WideTree& tree, std::span<const Ray> rays,
                                    Bundle& bundle) {
@@ -144,22 +172,25 @@ HWY_INLINE bool gather_from_origin(const WideTree& tree, std::span<const Ray> ra
   if (!is_in_range(tree, bundle)) return false;
   const auto x = static_cast<int>(bundle.axis_x), y = static_cast<int>(bundle.axis_y);
   const auto z = static_cast<int>(bundle.axis_z);
-  bool is_common = true;
+  uint32_t differing = 0;
+  uint64_t bounded = 0;
+  constexpr auto unbounded = std::bit_cast<uint64_t>(std::numeric_limits<double>::infinity());
   for (size_t i = 0; i < rays.size(); ++i) {
     const Ray& ray = rays[i];
-    is_common &= ray.origin == bundle.point;
-    const float speed = ray.direction[z] * bundle.toward;
-    bundle.slope_x[i] = ray.direction[x];
-    bundle.slope_y[i] = ray.direction[y];
-    bundle.speed[i] = speed;
-    bundle.start[i] =
-        static_cast<float>(std::min(ray.t_min, double{FLT_MAX})) * speed * (1 + 8 * u);
-    const float end = static_cast<float>(std::min(ray.t_max, double{FLT_MAX})) * speed;
-    bundle.least[i] = end * (1 - 8 * u);
-    bundle.most[i] = end * (1 + 8 * u);
-    bundle.winner[i] = no_winner;
+    differing |= differing_bits(ray.origin, bundle.point);
+    bounded |= std::bit_cast<uint64_t>(ray.t_min);
+    bounded |= std::bit_cast<uint64_t>(ray.t_max) ^ unbounded;
+    const float* const direction = &ray.direction.x;
+    bundle.slope_x[i] = direction[x];
+    bundle.slope_y[i] = direction[y];
+    bundle.speed[i] = direction[z] * bundle.toward;
   }
-  if (!is_common) return false;
+  if (differing != 0) return false;
+  if (bounded == 0) {
+    set_all_depths(bundle);
+  } else {
+    set_depths(rays, bundle);
+  }
   fill_last_group(bundle);
   if (!find_slopes(bundle)) return false;
   for (size_t group = 0; group < bundle.group_count; ++group) update_group(bundle, group);
@@ -205,7 +236,6 @@ HWY_INLINE bool gather_from_end(const WideTree& tree, std::span<const Ray> rays,
     bundle.start[i] = std::max(depth_at(ray.t_max), 0.0f) + pad;
     bundle.least[i] = depth_at(ray.t_min) - pad;
     bundle.most[i] = depth_at(ray.t_min) + pad;
-    bundle.winner[i] = no_winner;
   }
   fill_last_group(bundle);
   if (!find_slopes(bundle)) return false;

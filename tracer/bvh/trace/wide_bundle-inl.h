@@ -250,19 +250,22 @@ HWY_INLINE void finish_winners(const WideTree& tree, std::span<const Ray> rays,
   const size_t count = hn::Lanes(d);
   alignas(64) float corner[9][hn::MaxLanes(Doubles())];
   alignas(64) float direction[3][hn::MaxLanes(Doubles())];
+  const auto rows_of = [&](size_t winner) {
+    return tree.blocks.row(0) + winner / width * (WideTree::rows_a_block * width) + winner % width;
+  };
   uint32_t won = 0;
+  const size_t last = std::min(first + count, rays.size());
+  for (size_t ray = first; ray < last; ++ray) {
+    won |= uint32_t{bundle.winner[ray] != no_winner} << (ray - first);
+  }
+  if (won == 0) return;
+  const size_t some_ray = first + static_cast<size_t>(std::countr_zero(won));
   for (size_t i = 0; i < count; ++i) {
-    const size_t ray = std::min(first + i, rays.size() - 1);
-    const uint32_t winner = bundle.winner[ray];
-    const bool has_won = first + i < rays.size() && winner != no_winner;
-    won |= uint32_t{has_won} << i;
-    const size_t place = has_won ? winner : 0;
-    const float* v =
-        tree.blocks.row(0) + place / width * (WideTree::rows_a_block * width) + place % width;
+    const size_t ray = (won >> i & 1) != 0 ? first + i : some_ray;
+    const float* v = rows_of(bundle.winner[ray]);
     for (size_t row = 0; row < 9; ++row) corner[row][i] = v[row * width];
     for (int axis = 0; axis < 3; ++axis) direction[axis][i] = rays[ray].direction[axis];
   }
-  if (won == 0) return;
   const auto load = [&](const float(*rows)[hn::MaxLanes(Doubles())]) {
     return VectorLanes{hn::PromoteTo(d, hn::Load(df, rows[0])),
                        hn::PromoteTo(d, hn::Load(df, rows[1])),
@@ -281,9 +284,7 @@ HWY_INLINE void finish_winners(const WideTree& tree, std::span<const Ray> rays,
   hn::StoreMaskBits(d, found.is_certain, certain);
   for (; won != 0; won &= won - 1) {
     const auto i = static_cast<size_t>(std::countr_zero(won));
-    const size_t place = bundle.winner[first + i];
-    const float* v =
-        tree.blocks.row(0) + place / width * (WideTree::rows_a_block * width) + place % width;
+    const float* v = rows_of(bundle.winner[first + i]);
     Hit hit{t[i], weight1[i], weight2[i], std::bit_cast<uint32_t>(v[9 * width])};
     if (HWY_UNLIKELY((certain[0] >> i & 1) == 0)) {
       const auto vertex = [&](size_t row) {
