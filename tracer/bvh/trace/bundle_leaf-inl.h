@@ -93,11 +93,11 @@ HWY_INLINE void find_planes(const float* HWY_RESTRICT rows, const Bundle& bundle
   hn::Store(hn::MulAdd(hn::Mul(length, distance), hn::Set(d, 20 * slopes * u), tiny), d,
             planes.edge_error.lane);
   hn::Store(hn::Mul(normal_error, hn::Set(d, 4.0f)), d, planes.normal_floor.lane);
-  hn::Store(hn::MulAdd(hn::MulAdd(length, hn::Set(d, 120 + 26 * slopes),
+  hn::Store(hn::MulAdd(hn::MulAdd(length, hn::Set(d, 130 + 28 * slopes),
                                   hn::Mul(distance, hn::Set(d, 9 * slopes))),
                        hn::Mul(area, hn::Set(d, u)), tiny),
             d, planes.depth_error.lane);
-  hn::Store(hn::MulAdd(distance, hn::Set(d, 4 * u), tiny), d, planes.vertex_error.lane);
+  hn::Store(hn::MulAdd(distance, hn::Set(d, 8 * u), tiny), d, planes.vertex_error.lane);
   hn::Store(hn::Min(hn::Min(a.z, b.z), c.z), d, planes.nearest.lane);
 }
 
