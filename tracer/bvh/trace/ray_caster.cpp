@@ -14,6 +14,9 @@ constexpr size_t least_bundle = 8;
 // In a row, after which every 32nd bundle is tried.
 constexpr size_t most_failures = 5;
 
+// Smaller trees are in the caches that cores share: nothing to wait for. Measured.
+constexpr size_t least_tree_to_wait_for_bytes = size_t{16} << 20;
+
 size_t bundle_end(size_t first, size_t ray_count) {
   return std::min(first + bundle_size, ray_count);
 }
@@ -22,13 +25,28 @@ bool may_share_origin(std::span<const Ray> rays) {
   return rays.size() >= least_bundle && rays.front().origin == rays.back().origin;
 }
 
+// Whether neighbours in the span start so far apart that each waits for memory of its own.
+bool are_scattered(std::span<const Ray> rays, float max_coordinate) {
+  constexpr size_t probe_count = 16;
+  if (rays.size() < 2 * probe_count) return false;
+  size_t far_apart = 0;
+  for (size_t i = 1; i <= probe_count; ++i) {
+    const Vec3d step = Vec3d(rays[i].origin) - Vec3d(rays[i - 1].origin);
+    if (max_abs(step) > 0x1p-4 * double{max_coordinate}) ++far_apart;
+  }
+  return far_apart > probe_count / 2;
+}
+
 }  // namespace
 
 void RayCaster::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) {
   assert(rays.size() == hits.size());
   const auto trace_alone = [&](size_t first, size_t end) {
+    const bool may_wait =
+        accel_.wide && accel_.wide->bytes() > least_tree_to_wait_for_bytes &&
+        are_scattered(rays.subspan(first, end - first), accel_.wide->max_coordinate);
     while (first < end) {
-      if (accel_.wide && accel_.wide->is_larger_than_cache) {
+      if (may_wait) {
         const size_t done = closest_hits_in_flight(*accel_.wide, rays.subspan(first, end - first),
                                                    stop_, hits.subspan(first, end - first));
         ray_count_ += done;
