@@ -36,12 +36,13 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// A camera ray a sample, and as much time as a large model without a tree would take.
+/// What the camera ray met, after as much time as a large model without a tree would take.
 template <int pixel_ms>
-tracer::Vec3d slow_radiance(const tracer::World&, tracer::RayCaster& rays, const tracer::Ray& ray,
-                            tracer::Sampler&, const tracer::RenderSettings&) {
+tracer::Vec3d slow_radiance(const tracer::World&, tracer::RayCaster&,
+                            const tracer::CameraHit& camera, tracer::Sampler&,
+                            const tracer::RenderSettings&) {
   std::this_thread::sleep_for(std::chrono::milliseconds(pixel_ms));
-  return tracer::Vec3d(rays.closest_hit(ray).is_hit() ? 1.0 : 0.5);
+  return tracer::Vec3d(camera.hit.is_hit() ? 1.0 : 0.5);
 }
 
 /// A session with the part of the window: adopts models, keeps the picture that the tiles make.

@@ -14,10 +14,10 @@ using test::Estimate;
 using test::Triangles;
 
 template <LightStrategy strategy>
-Vec3d radiance_by(const World& world, RayCaster& rays, const Ray& ray, Sampler& sampler,
+Vec3d radiance_by(const World& world, RayCaster& rays, const CameraHit& camera, Sampler& sampler,
                   const RenderSettings& settings) {
   NoRecorder recorder;
-  return BasicPath<strategy>::radiance(world, rays, ray, sampler, settings, recorder);
+  return BasicPath<strategy>::radiance(world, rays, camera, sampler, settings, recorder);
 }
 
 const Integrator& path() {

@@ -189,9 +189,9 @@ TEST(Render, every_tile_is_reported_once_a_pass_after_the_film_holds_it) {
 TEST(Render, samples_that_are_not_finite_are_black_and_counted) {
   const Integrator broken{
       "", "", "",
-      [](const World&, RayCaster&, const Ray& ray, Sampler&, const RenderSettings&) {
-        return Vec3d(ray.direction.x > 0 ? 1.0 : NAN, INFINITY, 0) *
-               (ray.direction.y > 0 ? 0.0 : 1.0);
+      [](const World&, RayCaster&, const CameraHit& camera, Sampler&, const RenderSettings&) {
+        return Vec3d(camera.ray.direction.x > 0 ? 1.0 : NAN, INFINITY, 0) *
+               (camera.ray.direction.y > 0 ? 0.0 : 1.0);
       },
       nullptr};
   Film film(size_px);

@@ -10,17 +10,17 @@ namespace tracer {
 namespace {
 
 template <class Method>
-Vec3d radiance(const World& world, RayCaster& rays, const Ray& ray, Sampler& sampler,
+Vec3d radiance(const World& world, RayCaster& rays, const CameraHit& camera, Sampler& sampler,
                const RenderSettings& settings) {
   NoRecorder recorder;
-  return Method::radiance(world, rays, ray, sampler, settings, recorder);
+  return Method::radiance(world, rays, camera, sampler, settings, recorder);
 }
 
 template <class Method>
-Vec3d describe(const World& world, RayCaster& rays, const Ray& ray, Sampler& sampler,
+Vec3d describe(const World& world, RayCaster& rays, const CameraHit& camera, Sampler& sampler,
                const RenderSettings& settings, std::string& text) {
   TextRecorder recorder(text, world.scene->mesh->origin);
-  return Method::radiance(world, rays, ray, sampler, settings, recorder);
+  return Method::radiance(world, rays, camera, sampler, settings, recorder);
 }
 
 template <class Method>

@@ -12,12 +12,18 @@
 
 namespace tracer {
 
+/// A camera ray and what it meets first, traced together with its neighbours'.
+struct CameraHit {
+  Ray ray;
+  Hit hit;
+};
+
 /// Radiance, linear RGB, that arrives along a camera ray: one sample.
-using RadianceFunction = Vec3d (*)(const World& world, RayCaster& rays, const Ray& ray,
+using RadianceFunction = Vec3d (*)(const World& world, RayCaster& rays, const CameraHit& camera,
                                    Sampler& sampler, const RenderSettings& settings);
 
 /// The same sample, with its path appended to `text`, a line a vertex.
-using DescribeFunction = Vec3d (*)(const World& world, RayCaster& rays, const Ray& ray,
+using DescribeFunction = Vec3d (*)(const World& world, RayCaster& rays, const CameraHit& camera,
                                    Sampler& sampler, const RenderSettings& settings,
                                    std::string& text);
 

@@ -18,16 +18,17 @@ enum class LightStrategy { combined, light_sampling, scattering };
 template <LightStrategy strategy>
 struct BasicPath {
   template <class Recorder>
-  static Vec3d radiance(const World& world, RayCaster& rays, Ray ray, Sampler& sampler,
-                        const RenderSettings& settings, Recorder& recorder) {
+  static Vec3d radiance(const World& world, RayCaster& rays, const CameraHit& camera,
+                        Sampler& sampler, const RenderSettings& settings, Recorder& recorder) {
     constexpr int first_roulette = 4;
     const Scene& scene = *world.scene;
     Vec3d radiance(0);
     Vec3d throughput(1);
     double scatter_pdf = 0;  // by solid angle, of the ray's direction
+    auto [ray, hit] = camera;
     recorder.camera(ray);
     for (int scatterings = 0;; ++scatterings) {
-      const Hit hit = rays.closest_hit(ray);
+      if (scatterings > 0) hit = rays.closest_hit(ray);
       if (!hit.is_hit()) {
         radiance += throughput * world.sky;
         recorder.sky(ray, throughput, radiance);

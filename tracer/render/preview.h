@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <utility>
 
 #include "tracer/render/integrator.h"
 #include "tracer/render/recorder.h"
@@ -11,15 +10,13 @@
 
 namespace tracer {
 
-/// What the camera ray meets first; nullopt, with `miss` recorded as the sky, where it meets
-/// nothing.
+/// Where the camera ray ends; nullopt, with `miss` recorded as the sky, where it meets nothing.
 template <class Recorder>
-std::optional<std::pair<Hit, Surface>> first_surface(const World& world, RayCaster& rays,
-                                                     const Ray& ray, const Vec3d& miss,
-                                                     Recorder& recorder) {
+std::optional<Surface> first_surface(const World& world, const CameraHit& camera, const Vec3d& miss,
+                                     Recorder& recorder) {
+  const auto& [ray, hit] = camera;
   recorder.camera(ray);
-  const Hit hit = rays.closest_hit(ray);
-  if (hit.is_hit()) return std::pair{hit, surface_at(*world.scene, hit, Vec3d(ray.direction))};
+  if (hit.is_hit()) return surface_at(*world.scene, hit, Vec3d(ray.direction));
   recorder.sky(ray, Vec3d(1), miss);
   return std::nullopt;
 }
@@ -28,11 +25,12 @@ std::optional<std::pair<Hit, Surface>> first_surface(const World& world, RayCast
 /// plus emission; the sky where nothing is hit.
 struct EyeLight {
   template <class Recorder>
-  static Vec3d radiance(const World& world, RayCaster& rays, const Ray& ray, Sampler&,
+  static Vec3d radiance(const World& world, RayCaster&, const CameraHit& camera, Sampler&,
                         const RenderSettings&, Recorder& recorder) {
-    const auto first = first_surface(world, rays, ray, world.sky, recorder);
+    const auto first = first_surface(world, camera, world.sky, recorder);
     if (!first) return world.sky;
-    const auto& [hit, surface] = *first;
+    const auto& [ray, hit] = camera;
+    const Surface& surface = *first;
     const Vec3d view = unit_or(Vec3d(ray.direction), Vec3d(0));
     const double cosine = std::abs(glm::dot(surface.shading_normal, view));
     const Vec3d radiance = surface.albedo * cosine + surface.emission;
@@ -45,11 +43,12 @@ struct EyeLight {
 /// hit, which no normal's colour is.
 struct Normals {
   template <class Recorder>
-  static Vec3d radiance(const World& world, RayCaster& rays, const Ray& ray, Sampler&,
+  static Vec3d radiance(const World& world, RayCaster&, const CameraHit& camera, Sampler&,
                         const RenderSettings&, Recorder& recorder) {
-    const auto first = first_surface(world, rays, ray, Vec3d(0), recorder);
+    const auto first = first_surface(world, camera, Vec3d(0), recorder);
     if (!first) return Vec3d(0);
-    const auto& [hit, surface] = *first;
+    const auto& [ray, hit] = camera;
+    const Surface& surface = *first;
     const Vec3d radiance = 0.5 * (surface.shading_normal + Vec3d(1));
     recorder.hit(ray, hit, surface, Vec3d(1), radiance);
     return radiance;
@@ -60,11 +59,12 @@ struct Normals {
 /// one direction a sample; white where nothing is hit: nothing is near.
 struct AmbientOcclusion {
   template <class Recorder>
-  static Vec3d radiance(const World& world, RayCaster& rays, const Ray& ray, Sampler& sampler,
-                        const RenderSettings&, Recorder& recorder) {
-    const auto first = first_surface(world, rays, ray, Vec3d(1), recorder);
+  static Vec3d radiance(const World& world, RayCaster& rays, const CameraHit& camera,
+                        Sampler& sampler, const RenderSettings&, Recorder& recorder) {
+    const auto first = first_surface(world, camera, Vec3d(1), recorder);
     if (!first) return Vec3d(1);
-    const auto& [hit, surface] = *first;
+    const auto& [ray, hit] = camera;
+    const Surface& surface = *first;
     const Vec3d direction = sample_cosine_hemisphere(surface.shading_normal, sampler.next_2d());
     const Ray probe{.origin = offset_origin(surface),
                     .direction = Vec3f(direction),

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "tracer/render/render.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cassert>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -40,35 +43,100 @@ struct PassContext {
   const StopFlag& stop;
 };
 
-PassStats render_tile(const PassContext& context, const Tile& tile) {
-  const Pass& pass = context.pass;
-  Film& film = context.film;
-  RayCaster rays(*context.world.accel, context.stop);
-  PassStats stats;
-  const auto render_missing_pixels = [&] {
-    for (int y = first_multiple_from(tile.y0, pass.stride); y < tile.y1; y += pass.stride) {
-      for (int x = first_multiple_from(tile.x0, pass.stride); x < tile.x1; x += pass.stride) {
-        if (film.sample_count(x, y) > pass.sample) continue;
-        assert(film.sample_count(x, y) == pass.sample);
-        if (context.stop.requested()) return false;
-        Vec3d radiance = render_sample(context.world, context.integrator, context.settings,
-                                       film.size_px(), {x, y}, pass.sample, rays);
-        // A stopped ray caster may have answered with misses.
-        if (context.stop.requested()) return false;
-        if (!is_finite(radiance)) {
-          radiance = Vec3d(0);
-          ++stats.dropped;
-        }
-        film.add(x, y, radiance);
-        ++stats.samples;
+/// Neighbours whose camera rays are traced together.
+constexpr int block_side = 8;
+
+/// In Morton order: 4 pixels in a row are a square, and 16.
+Vec2i place_in_block(int i) {
+  const auto every_other_bit = [](int bits) {
+    return (bits & 1) | (bits >> 1 & 2) | (bits >> 2 & 4);
+  };
+  return {every_other_bit(i), every_other_bit(i >> 1)};
+}
+
+/// The pixels of a block that lack the pass's sample.
+struct PixelBlock {
+  static constexpr size_t capacity = block_side * block_side;
+
+  std::array<Vec2i, capacity> pixels;
+  std::array<Ray, capacity> rays;
+  std::array<Hit, capacity> hits;
+  std::array<std::optional<Sampler>, capacity> samplers;
+  size_t count = 0;
+};
+
+/// Renders a tile's part of a pass, block by block.
+class TileRenderer {
+ public:
+  TileRenderer(const PassContext& context, const Tile& tile)
+      : context_(context), tile_(tile), rays_(*context.world.accel, context.stop) {}
+
+  PassStats run() {
+    stats_.is_complete = render_blocks();
+    stats_.rays = rays_.ray_count();
+    return stats_;
+  }
+
+ private:
+  // False when stopped, as below.
+  bool render_blocks() {
+    const int stride = context_.pass.stride;
+    for (int y = first_multiple_from(tile_.y0, stride); y < tile_.y1; y += block_side * stride) {
+      for (int x = first_multiple_from(tile_.x0, stride); x < tile_.x1; x += block_side * stride) {
+        gather({x, y});
+        if (block_.count > 0 && !render_block()) return false;
       }
     }
     return true;
-  };
-  stats.is_complete = render_missing_pixels();
-  stats.rays = rays.ray_count();
-  return stats;
-}
+  }
+
+  void gather(Vec2i first) {
+    const Pass& pass = context_.pass;
+    block_.count = 0;
+    for (int i = 0; i < block_side * block_side; ++i) {
+      const Vec2i pixel = first + pass.stride * place_in_block(i);
+      if (pixel.x >= tile_.x1 || pixel.y >= tile_.y1) continue;
+      if (context_.film.sample_count(pixel.x, pixel.y) > pass.sample) continue;
+      assert(context_.film.sample_count(pixel.x, pixel.y) == pass.sample);
+      const PixelSample start = start_sample(context_.world, context_.settings,
+                                             context_.film.size_px(), pixel, pass.sample);
+      block_.pixels[block_.count] = pixel;
+      block_.rays[block_.count] = start.ray;
+      block_.samplers[block_.count] = start.sampler;
+      ++block_.count;
+    }
+  }
+
+  bool render_block() {
+    // Where a ray may take milliseconds, a stop loses but one.
+    const size_t together = context_.world.accel->wide ? PixelBlock::capacity : 1;
+    for (size_t i = 0; i < block_.count; ++i) {
+      if (context_.stop.requested()) return false;
+      if (i % together == 0) {
+        const size_t count = std::min(together, block_.count - i);
+        rays_.closest_hits({&block_.rays[i], count}, {&block_.hits[i], count});
+      }
+      Vec3d radiance =
+          context_.integrator.radiance(context_.world, rays_, {block_.rays[i], block_.hits[i]},
+                                       *block_.samplers[i], context_.settings);
+      // A stopped ray caster may have answered with misses.
+      if (context_.stop.requested()) return false;
+      if (!is_finite(radiance)) {
+        radiance = Vec3d(0);
+        ++stats_.dropped;
+      }
+      context_.film.add(block_.pixels[i].x, block_.pixels[i].y, radiance);
+      ++stats_.samples;
+    }
+    return true;
+  }
+
+  const PassContext& context_;
+  const Tile& tile_;
+  RayCaster rays_;
+  PassStats stats_;
+  PixelBlock block_;
+};
 
 }  // namespace
 
@@ -85,7 +153,7 @@ PassStats render_pass(const World& world, const Integrator& integrator,
   std::atomic<uint64_t> rays{0}, samples{0}, dropped{0};
   std::atomic<bool> is_complete{true};
   parallel_in_order(tiles.size(), [&](size_t i) {
-    const PassStats stats = render_tile(context, tiles[i]);
+    const PassStats stats = TileRenderer(context, tiles[i]).run();
     rays += stats.rays;
     samples += stats.samples;
     dropped += stats.dropped;
@@ -99,7 +167,7 @@ Vec3d render_sample(const World& world, const Integrator& integrator,
                     const RenderSettings& settings, Vec2i size_px, Vec2i pixel, uint32_t sample,
                     RayCaster& rays) {
   auto [ray, sampler] = start_sample(world, settings, size_px, pixel, sample);
-  return integrator.radiance(world, rays, ray, sampler, settings);
+  return integrator.radiance(world, rays, {ray, rays.closest_hit(ray)}, sampler, settings);
 }
 
 std::string describe_sample(const World& world, const Integrator& integrator,
@@ -109,7 +177,8 @@ std::string describe_sample(const World& world, const Integrator& integrator,
   RayCaster rays(*world.accel, never);
   auto [ray, sampler] = start_sample(world, settings, size_px, pixel, sample);
   std::string text;
-  const Vec3d radiance = integrator.describe(world, rays, ray, sampler, settings, text);
+  const Vec3d radiance =
+      integrator.describe(world, rays, {ray, rays.closest_hit(ray)}, sampler, settings, text);
   text += fmt::format("radiance {:.9g} {:.9g} {:.9g}\n", radiance.x, radiance.y, radiance.z);
   return text;
 }

@@ -52,6 +52,13 @@ class RayCaster {
   Hit closest_hit(const Ray& ray);
   bool occluded(const Ray& ray);
 
+  /// The same hits, in the order of the rays, sooner: rays from one origin are traced as bundles
+  /// where 64 neighbours in the span look about the same way (a square of pixels does), and rays
+  /// that start all over a large scene several at a time.
+  void closest_hits(std::span<const Ray> rays, std::span<Hit> hits);
+  /// 1 for rays that meet anything, else 0; sooner where neighbours end in one point.
+  void occluded(std::span<const Ray> rays, std::span<uint8_t> is_occluded);
+
   uint64_t ray_count() const { return ray_count_; }
 
  private:

@@ -29,19 +29,19 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET == HWY_SCALAR
 
 // No kernel: a width of 0 says so, and nobody calls the others.
-int KernelWidth() {
+inline int KernelWidth() {
   return 0;
 }
-bool ClosestHit(const WideTree&, const Ray&, const StopFlag&, Hit&) {
+inline bool ClosestHit(const WideTree&, const Ray&, const StopFlag&, Hit&) {
   return false;
 }
-bool Occluded(const WideTree&, const Ray&, const StopFlag&, Hit&) {
+inline bool Occluded(const WideTree&, const Ray&, const StopFlag&, Hit&) {
   return false;
 }
-bool CountClosestHit(const WideTree&, const Ray&, const StopFlag&, Hit&, VisitCounts&) {
+inline bool CountClosestHit(const WideTree&, const Ray&, const StopFlag&, Hit&, VisitCounts&) {
   return false;
 }
-bool CountOccluded(const WideTree&, const Ray&, const StopFlag&, Hit&, VisitCounts&) {
+inline bool CountOccluded(const WideTree&, const Ray&, const StopFlag&, Hit&, VisitCounts&) {
   return false;
 }
 
@@ -444,25 +444,25 @@ HWY_INLINE bool answer(const WideTree& tree, const Ray& ray, const StopFlag& sto
 }
 
 // NOLINTBEGIN(misc-definitions-in-headers): each instruction set has a namespace of its own.
-int KernelWidth() {
+inline int KernelWidth() {
   return static_cast<int>(hn::Lanes(Floats()));
 }
 
-bool ClosestHit(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit) {
+inline bool ClosestHit(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit) {
   return answer<Query::closest_hit>(tree, ray, stop, NoProbe{}, hit);
 }
 
-bool Occluded(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit) {
+inline bool Occluded(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit) {
   return answer<Query::occluded>(tree, ray, stop, NoProbe{}, hit);
 }
 
-bool CountClosestHit(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit,
-                     VisitCounts& counts) {
+inline bool CountClosestHit(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit,
+                            VisitCounts& counts) {
   return answer<Query::closest_hit>(tree, ray, stop, CountingProbe{counts}, hit);
 }
 
-bool CountOccluded(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit,
-                   VisitCounts& counts) {
+inline bool CountOccluded(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit,
+                          VisitCounts& counts) {
   return answer<Query::occluded>(tree, ray, stop, CountingProbe{counts}, hit);
 }
 // NOLINTEND(misc-definitions-in-headers)
