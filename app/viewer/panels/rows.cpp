@@ -28,6 +28,15 @@ bool section(const Ui& ui, const char* title) {
   return is_open;
 }
 
+bool closed_part(const Ui& ui, const char* title) {
+  ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
+  const bool is_open = ImGui::TreeNodeEx(
+      title, ImGuiTreeNodeFlags_SpanAvailWidth | ImGuiTreeNodeFlags_NoTreePushOnOpen);
+  ImGui::PopStyleColor();
+  ui.layout.note_last_item(std::string("part ") + title);
+  return is_open;
+}
+
 void control_label(const Ui& ui, const std::string& label) {
   ImGui::AlignTextToFramePadding();
   ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);

@@ -22,6 +22,8 @@ struct Ui {
 
 /// A heading that folds what follows; true when unfolded.
 bool section(const Ui& ui, const char* title);
+/// A part of a section that few need, closed until it is clicked; whether it is open.
+bool closed_part(const Ui& ui, const char* title);
 /// Writes the label and puts the next item into the column of controls.
 void control_label(const Ui& ui, const std::string& label);
 /// To be called after a control: reports its place as `name`, and says `help` when hovered.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 namespace app {
@@ -63,17 +64,22 @@ void draw_value(const char* id, double& value, const tracer::Field<double>& fiel
   end_slider();
 }
 
-/// Whether one of them is being dragged.
-template <class Settings>
-bool draw_fields(const Ui& ui, Settings& settings) {
+/// Those of the settings that `is_drawn` picks by their names; whether one is being dragged.
+template <class Settings, class Pick>
+bool draw_fields(const Ui& ui, Settings& settings, Pick&& is_drawn) {
   bool is_dragged = false;
   for_each_field(settings, [&](auto& value, const auto& field) {
+    if (!is_drawn(std::string_view(field.name))) return;
     control_label(ui, format_label(field.name));
     draw_value((std::string("##") + field.name).c_str(), value, field);
     is_dragged |= ImGui::IsItemActive();
     finish_control(ui, field.name, field.help);
   });
   return is_dragged;
+}
+
+bool is_main_tree_setting(std::string_view name) {
+  return name == "max-depth" || name == "leaf-size";
 }
 
 void draw_tree_settings(const Ui& ui, ViewerSettings& settings) {
@@ -84,7 +90,10 @@ void draw_tree_settings(const Ui& ui, ViewerSettings& settings) {
                  "picture is the same to the last bit.");
   draw_choice(ui, "Builder", "builder", tracer::builders(), settings.builder);
   draw_choice(ui, "Traversal", "layout", tracer::layouts(), settings.layout);
-  settings.is_build_dragged = draw_fields(ui, settings.build);
+  settings.is_build_dragged = draw_fields(ui, settings.build, is_main_tree_setting);
+  if (!closed_part(ui, "More")) return;
+  settings.is_build_dragged |=
+      draw_fields(ui, settings.build, [](auto name) { return !is_main_tree_setting(name); });
   control_label(ui, "Improve");
   ImGui::Checkbox("in the background##improve", &settings.improves_tree);
   finish_control(
@@ -114,7 +123,7 @@ void draw_picture_settings(const Ui& ui, ViewerSettings& settings) {
   const int shading = segmented(ui, "shading", {"Flat", "Smooth"},
                                 settings.shading == tracer::Shading::smooth ? 1 : 0);
   settings.shading = shading == 1 ? tracer::Shading::smooth : tracer::Shading::flat;
-  draw_fields(ui, settings.render);
+  draw_fields(ui, settings.render, [](auto) { return true; });
   draw_sky(ui, settings);
   control_label(ui, "Samples");
   begin_slider(std::log(settings.sample_limit) / std::log(greatest_sample_limit), 0);
