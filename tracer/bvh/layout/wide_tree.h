@@ -69,9 +69,9 @@ struct WideTree {
   }
 };
 
-/// Collapses `tree` to nodes of `width` children so that the surface area cost is least. [Wald
-/// 2008] Subtrees of at most `width` triangles become one block. `tree` is not empty; `width` at
-/// most 16. Throws Cancelled.
+/// Collapses `tree` to nodes of `width` children so that the surface area cost is least
+/// [Wald 2008]. Subtrees of at most `width` triangles become one block. `tree` is not empty;
+/// `width` at most 16. Throws Cancelled.
 WideTree build_wide_tree(const BvhTree& tree, const Mesh& mesh, int width, Progress& progress);
 
 }  // namespace tracer
