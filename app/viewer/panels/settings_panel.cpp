@@ -145,7 +145,7 @@ void ViewerSettings::set_sky(const tracer::Vec3d& radiance) {
 }
 
 const tracer::Builder* ViewerSettings::builder_for(uint32_t triangle_count) const {
-  constexpr uint32_t large = 100'000;
+  constexpr uint32_t large = 20'000;
   if (!is_bvh_on) return nullptr;
   return is_build_dragged && triangle_count > large ? tracer::find_builder("morton") : builder;
 }

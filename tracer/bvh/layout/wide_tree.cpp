@@ -58,6 +58,7 @@ class Collapse {
     progress_.start_stage("laying out the tree");
     count_primitives();
     if (!is_block(0)) find_costs(0);
+    wide_.expected_steps = area(0) > 0 ? cost(0, 1) / area(0) : 0;
     const Totals totals = plan_node(0);
     wide_.nodes = FloatRows(totals.nodes * WideTree::rows_a_node, wide_.width);
     wide_.blocks = FloatRows(totals.blocks * WideTree::rows_a_block, wide_.width);

@@ -16,6 +16,8 @@ constexpr size_t most_failures = 5;
 
 // Smaller trees are in the caches that cores share: nothing to wait for. Measured.
 constexpr size_t least_tree_to_wait_for_bytes = size_t{16} << 20;
+// Rays that meet hundreds of nodes are busy enough alone. Measured.
+constexpr float most_steps_to_wait_for = 100;
 
 size_t bundle_end(size_t first, size_t ray_count) {
   return std::min(first + bundle_size, ray_count);
@@ -44,6 +46,7 @@ void RayCaster::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) {
   const auto trace_alone = [&](size_t first, size_t end) {
     const bool may_wait =
         accel_.wide && accel_.wide->bytes() > least_tree_to_wait_for_bytes &&
+        accel_.wide->expected_steps < most_steps_to_wait_for &&
         are_scattered(rays.subspan(first, end - first), accel_.wide->max_coordinate);
     while (first < end) {
       if (may_wait) {
