@@ -10,11 +10,11 @@
 #include <thread>
 #include <utility>
 
-#include "app/background_thread.h"
 #include "app/session_changes.h"
 #include "app/session_jobs.h"
 #include "app/session_quality.h"
 #include "app/session_renderer.h"
+#include "tracer/base/low_priority.h"
 
 namespace app {
 namespace {
@@ -104,7 +104,7 @@ void Session::State::post_news() {
 }
 
 void Session::State::run_jobs() {
-  give_way_to_window();
+  tracer::lower_priority(tracer::Priority::background);  // the window comes first
   std::unique_lock lock(mutex);
   while (!is_quitting) {
     if (open_request) {

@@ -4,16 +4,13 @@
 #include <new>
 #include <utility>
 
-#include <sys/resource.h>
-
+#include "tracer/base/low_priority.h"
 #include "tracer/base/parallel.h"
 
 namespace app {
 namespace {
 
 constexpr std::chrono::milliseconds rest{300};
-// About a tenth of the share of a thread that traces.
-constexpr int niceness = 19;
 
 }  // namespace
 
@@ -56,7 +53,7 @@ std::optional<tracer::TreeQuality> QualityMeter::quality() {
 }
 
 void QualityMeter::run() {
-  setpriority(PRIO_PROCESS, 0, niceness);  // of this thread alone, on Linux
+  tracer::lower_priority(tracer::Priority::idle);
   std::unique_lock lock(mutex_);
   while (!is_quitting_) {
     if (!accel_) {

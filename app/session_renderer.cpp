@@ -5,7 +5,7 @@
 #include <chrono>
 #include <utility>
 
-#include "app/background_thread.h"
+#include "tracer/base/low_priority.h"
 
 namespace app {
 namespace {
@@ -86,7 +86,7 @@ bool SessionRenderer::has_work() const {
 }
 
 void SessionRenderer::run() {
-  give_way_to_window();
+  tracer::lower_priority(tracer::Priority::background);  // the window comes first
   std::unique_lock lock(mutex_);
   while (!is_quitting_) {
     if (requested_) {

@@ -107,51 +107,50 @@ void expect_same_bits(const Hit& hit, const Hit& expected) {
 
 constexpr size_t ray_counts[] = {1, 3, 8, 17, 63, 64, 65, 200};
 
-TEST(Bundle, rays_from_a_point_give_the_bits_of_the_reference) {
+/// Calls f(mesh, caster, reference) for every mesh and instruction set.
+template <class F>
+void for_each_caster(F&& f) {
   const StopFlag stop;
   for (const auto& [name, mesh] : meshes()) {
     SCOPED_TRACE(name);
     const Accel binary = accel_of(mesh, "binary");
     RayCaster reference(binary, stop);
-    for_each_instruction_set([&](const std::string& set) {
+    for_each_instruction_set([&, &mesh = mesh](const std::string& set) {
       SCOPED_TRACE(set);
       const Accel wide = accel_of(mesh, "wide");
       RayCaster caster(wide, stop);
-      RandomSource random(11);
-      for (int i = 0; i < 400; ++i) {
-        const auto rays = rays_from_a_point(mesh, ray_counts[static_cast<size_t>(i) % 8], random);
-        std::vector<Hit> hits(rays.size());
-        caster.closest_hits(rays, hits);
-        for (size_t k = 0; k < rays.size(); ++k) {
-          SCOPED_TRACE(k);
-          ASSERT_NO_FATAL_FAILURE(expect_same_bits(hits[k], reference.closest_hit(rays[k])));
-        }
-      }
+      f(mesh, caster, reference);
     });
   }
 }
 
-TEST(Bundle, rays_to_a_point_give_the_verdicts_of_the_reference) {
-  const StopFlag stop;
-  for (const auto& [name, mesh] : meshes()) {
-    SCOPED_TRACE(name);
-    const Accel binary = accel_of(mesh, "binary");
-    RayCaster reference(binary, stop);
-    for_each_instruction_set([&](const std::string& set) {
-      SCOPED_TRACE(set);
-      const Accel wide = accel_of(mesh, "wide");
-      RayCaster caster(wide, stop);
-      RandomSource random(12);
-      for (int i = 0; i < 400; ++i) {
-        const auto rays = rays_to_a_point(mesh, ray_counts[static_cast<size_t>(i) % 8], random);
-        std::vector<uint8_t> is_occluded(rays.size());
-        caster.occluded(rays, is_occluded);
-        for (size_t k = 0; k < rays.size(); ++k) {
-          ASSERT_EQ(is_occluded[k] != 0, reference.occluded(rays[k])) << k;
-        }
+TEST(Bundle, rays_from_a_point_give_the_bits_of_the_reference) {
+  for_each_caster([](const Mesh& mesh, RayCaster& caster, RayCaster& reference) {
+    RandomSource random(11);
+    for (int i = 0; i < 400; ++i) {
+      const auto rays = rays_from_a_point(mesh, ray_counts[static_cast<size_t>(i) % 8], random);
+      std::vector<Hit> hits(rays.size());
+      caster.closest_hits(rays, hits);
+      for (size_t k = 0; k < rays.size(); ++k) {
+        SCOPED_TRACE(k);
+        ASSERT_NO_FATAL_FAILURE(expect_same_bits(hits[k], reference.closest_hit(rays[k])));
       }
-    });
-  }
+    }
+  });
+}
+
+TEST(Bundle, rays_to_a_point_give_the_verdicts_of_the_reference) {
+  for_each_caster([](const Mesh& mesh, RayCaster& caster, RayCaster& reference) {
+    RandomSource random(12);
+    for (int i = 0; i < 400; ++i) {
+      const auto rays = rays_to_a_point(mesh, ray_counts[static_cast<size_t>(i) % 8], random);
+      std::vector<uint8_t> is_occluded(rays.size());
+      caster.occluded(rays, is_occluded);
+      for (size_t k = 0; k < rays.size(); ++k) {
+        ASSERT_EQ(is_occluded[k] != 0, reference.occluded(rays[k])) << k;
+      }
+    }
+  });
 }
 
 // Else the two tests above would hold if no bundle were ever traced.

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "tracer/base/error.h"
+#include "tracer/base/huge_pages.h"
 #include "tracer/base/parallel.h"
 
 namespace tracer {
@@ -93,7 +94,7 @@ void FileBytes::read(const std::filesystem::path& path, Progress& progress) {
   if (address == MAP_FAILED) fail(path, std::strerror(errno));
   pages_.data = static_cast<char*>(address);
   pages_.size = size;
-  madvise(address, size, MADV_HUGEPAGE);
+  prefer_huge_pages(address, size);
 
   const std::span<char> bytes(pages_.data, size);
   const size_t piece_count = (size + piece_bytes - 1) / piece_bytes;

@@ -10,8 +10,7 @@
 #include <limits>
 #include <new>
 
-#include <sys/mman.h>
-
+#include "tracer/base/huge_pages.h"
 #include "tracer/base/parallel.h"
 
 namespace tracer {
@@ -23,7 +22,7 @@ FloatRows::FloatRows(size_t row_count, int width) : row_count_(row_count), width
   const size_t rounded = std::max((bytes() + alignment - 1) / alignment * alignment, alignment);
   data_.reset(static_cast<float*>(std::aligned_alloc(alignment, rounded)));
   if (!data_) throw std::bad_alloc();
-  if (alignment == large_page) madvise(data_.get(), rounded, MADV_HUGEPAGE);
+  prefer_huge_pages(data_.get(), rounded);
 }
 
 namespace {
