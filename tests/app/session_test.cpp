@@ -247,9 +247,11 @@ TEST_F(SessionTest, brute_force_gives_the_same_picture_and_a_rate_to_compare) {
   ASSERT_TRUE(wait_until([this] { return is_done(); }));
   const auto with_tree = picture_.pixels;
   edits_.builder = nullptr;
-  edits_.sample_limit = 8;
   session_->set(edits_);
   ASSERT_TRUE(wait_until([this] { return is_done() && status_.tree.node_count == 0; }));
+  edits_.sample_limit = 8;  // only now: until the tree is gone, samples are traced with it
+  session_->set(edits_);
+  ASSERT_TRUE(wait_until([this] { return is_done(); }));
   EXPECT_GT(status_.mrays_per_second_brute_force, 0);
   EXPECT_GT(status_.mrays_per_second_bvh, 0);
   edits_.render.seed = 1;

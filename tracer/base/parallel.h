@@ -26,24 +26,32 @@ namespace parallel_detail {
 /// What a parallel call gives to its tasks, and they give back to it.
 class ForkJoin {
  public:
-  ForkJoin() { fork_.give(); }
-  ~ForkJoin() { join_.take(); }
+  ForkJoin() : was_in_scheduler_(set_in_scheduler(true)) { fork_.give(); }
+  ~ForkJoin() {
+    join_.take();
+    set_in_scheduler(was_in_scheduler_);
+  }
   ForkJoin(const ForkJoin&) = delete;
   ForkJoin& operator=(const ForkJoin&) = delete;
 
   template <class F>
   decltype(auto) run_task(F&& task) {
+    set_in_scheduler(false);
     fork_.take();
-    const GiveAtEnd end{join_};
+    const TaskEnd end{join_};
     return task();
   }
 
  private:
-  struct GiveAtEnd {
+  struct TaskEnd {
     Handover& join;
-    ~GiveAtEnd() { join.give(); }
+    ~TaskEnd() {
+      join.give();
+      set_in_scheduler(true);
+    }
   };
 
+  const bool was_in_scheduler_;
   Handover fork_;
   Handover join_;
 };
