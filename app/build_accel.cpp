@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/build_accel.h"
 
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -17,8 +16,8 @@ bool is_same_tree(const TreeKey& a, const TreeKey& b) {
          !differs(a.settings, b.settings, tracer::Effect::rebuild);
 }
 
-std::shared_ptr<const tracer::Accel> build_accel(std::shared_ptr<const tracer::Mesh> mesh,
-                                                 const TreeKey& key, tracer::Progress& progress) {
+BuiltAccel build_accel(const std::shared_ptr<const tracer::Mesh>& mesh, const TreeKey& key,
+                       tracer::Progress& progress) {
   std::optional<tracer::BvhTree> tree;
   if (key.builder != nullptr) {
     progress.start_stage("building the tree");
@@ -29,8 +28,15 @@ std::shared_ptr<const tracer::Accel> build_accel(std::shared_ptr<const tracer::M
       *tree = reinsert(*tree, key.settings, progress);
     }
   }
-  return std::make_shared<const tracer::Accel>(
-      make_accel(std::move(mesh), std::move(tree), *key.layout, progress));
+  return lay_out(mesh, std::move(tree), *key.layout, progress);
+}
+
+BuiltAccel lay_out(const std::shared_ptr<const tracer::Mesh>& mesh,
+                   std::optional<tracer::BvhTree> tree, const tracer::Layout& layout,
+                   tracer::Progress& progress) {
+  auto shared = tree ? std::make_shared<const tracer::BvhTree>(*std::move(tree)) : nullptr;
+  auto accel = std::make_shared<const tracer::Accel>(make_accel(mesh, shared, layout, progress));
+  return {std::move(accel), std::move(shared)};
 }
 
 }  // namespace app

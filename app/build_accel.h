@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "tracer/bvh/build.h"
 #include "tracer/bvh/trace/accel.h"
@@ -19,8 +20,19 @@ struct TreeKey {
 /// Whether both ask for the same tree; without a builder nothing else matters.
 bool is_same_tree(const TreeKey& a, const TreeKey& b);
 
+/// What rays are traced through, and beside it the binary tree that it was made of, for whoever
+/// improves or measures that.
+struct BuiltAccel {
+  std::shared_ptr<const tracer::Accel> accel;
+  std::shared_ptr<const tracer::BvhTree> tree;  // nullptr without a builder
+};
+
 /// Builds what `key` asks for over the mesh. Throws Cancelled.
-std::shared_ptr<const tracer::Accel> build_accel(std::shared_ptr<const tracer::Mesh> mesh,
-                                                 const TreeKey& key, tracer::Progress& progress);
+BuiltAccel build_accel(const std::shared_ptr<const tracer::Mesh>& mesh, const TreeKey& key,
+                       tracer::Progress& progress);
+/// Lays out a binary tree over the mesh, or none. Throws Cancelled.
+BuiltAccel lay_out(const std::shared_ptr<const tracer::Mesh>& mesh,
+                   std::optional<tracer::BvhTree> tree, const tracer::Layout& layout,
+                   tracer::Progress& progress);
 
 }  // namespace app

@@ -20,11 +20,12 @@ using Json = nlohmann::ordered_json;
 Json describe_tree(const std::shared_ptr<const tracer::Mesh>& mesh, const TreeKey& key) {
   tracer::Progress progress;
   const Stopwatch start;
-  const auto accel = build_accel(mesh, key, progress);
+  const BuiltAccel built = build_accel(mesh, key, progress);
   Json tree = {{"builder", key.builder->name}, {"build_seconds", start.seconds()}};
-  const tracer::TreeMetrics metrics = measure(*accel, sah_costs(key.settings));
-  add_tree(tree, metrics, measure_quality(*accel->tree, *mesh, metrics.costs, progress));
-  tree["mrays_per_second"] = measure_mrays_per_second(*accel);
+  const tracer::TreeMetrics metrics = measure(*built.tree, sah_costs(key.settings));
+  add_tree(tree, metrics, measure_quality(*built.tree, *mesh, metrics.costs, progress),
+           built.accel->bytes());
+  tree["mrays_per_second"] = measure_mrays_per_second(*built.accel);
   return tree;
 }
 
@@ -71,7 +72,7 @@ std::vector<Row> rows_for(const Json& trees) {
           {"references", "references", count, "triangles of all leaves"},
           {"depth", "depth", count},
           {"largest leaf", "largest_leaf", count, "triangles"},
-          {"tree", "tree_bytes", megabytes},
+          {"tree", "tree_bytes", megabytes, "that rays are traced through"},
           {"SAH cost", "sah_cost", three_digits,
            fmt::format("{} a node, {} a triangle", first["sah_traversal_cost"].get<double>(),
                        first["sah_intersection_cost"].get<double>())},

@@ -93,19 +93,21 @@ class RenderJob {
     resolve();
 
     const Stopwatch build_start;
-    world_.accel = build_accel(
+    const BuiltAccel built = build_accel(
         imported_.scene.mesh,
         {options_.builder, options_.layout, options_.build, options_.improvement_rounds},
         progress_);
+    world_.accel = built.accel;
     report_.seconds.build = build_start.seconds();
-    report_.tree = measure(*world_.accel, sah_costs(options_.build));
-    if (options_.stats_file && world_.accel->tree) measure_quality();
+    report_.tree_bytes = world_.accel->bytes();
+    if (built.tree && options_.stats_file) measure_tree(*built.tree);
   }
 
-  void measure_quality() {
+  void measure_tree(const tracer::BvhTree& tree) {
     progress_.start_stage("measuring the tree");
-    report_.tree_quality = tracer::measure_quality(*world_.accel->tree, *imported_.scene.mesh,
-                                                   report_.tree.costs, progress_);
+    report_.tree = measure(tree, sah_costs(options_.build));
+    report_.tree_quality =
+        measure_quality(tree, *imported_.scene.mesh, report_.tree.costs, progress_);
   }
 
   void print_loading_warnings() {

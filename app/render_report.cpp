@@ -51,7 +51,7 @@ Json stats(const RenderOptions& options, const tracer::ImportedScene& imported,
                 {"model", options.model.filename().string()},
                 {"triangles", imported.scene.mesh->triangle_count()},
                 {"vertices", imported.scene.mesh->positions.size()}};
-  add_tree(stats, report.tree, report.tree_quality);
+  add_tree(stats, report.tree, report.tree_quality, report.tree_bytes);
   stats.update({{"seconds",
                  {{"load", report.seconds.load},
                   {"build", report.seconds.build},

@@ -22,8 +22,9 @@ struct StageSeconds {
 
 struct RenderReport {
   ResolvedView view;
-  tracer::TreeMetrics tree;          // node_count 0 without one
-  tracer::TreeQuality tree_quality;  // measured where a stats file is asked for
+  tracer::TreeMetrics tree;          // node_count 0 without one; measured, as is the next,
+  tracer::TreeQuality tree_quality;  // where a stats file is asked for
+  size_t tree_bytes = 0;             // that rays are traced through
   tracer::PassStats passes;          // of all passes together
   uint32_t whole_sample_count = 0;   // samples that every pixel has
   StageSeconds seconds;

@@ -55,6 +55,8 @@ struct Session::State {
   bool wants_tree() const;
   bool is_wanted(const BuiltTree& built) const;
   bool wants_improvement();
+  bool has_idle_tree() const;
+  void let_go_of_tree(std::unique_lock<std::mutex>& lock);
   bool is_edited_model() const { return model && edits.model_generation == model->generation; }
   std::shared_ptr<const tracer::World> make_world() const;
   void restart_picture();
@@ -115,6 +117,8 @@ void Session::State::run_jobs() {
       build(lock);
     } else if (wants_improvement()) {
       improve(lock);
+    } else if (has_idle_tree()) {
+      let_go_of_tree(lock);
     } else {
       changed.wait(lock);
     }
@@ -129,16 +133,29 @@ bool Session::State::wants_tree() const {
   return model && !is_wanted(tree) && !(declined && is_same_tree(tree_key_of(edits), *declined));
 }
 
-// Whoever switches improvement off wants the tree as it was built.
+// Whoever switches improvement off wants the tree as it was built; on, one that can be improved.
 bool Session::State::is_wanted(const BuiltTree& built) const {
-  return is_same_tree(tree_key_of(edits), built.key) &&
-         (edits.improve || built.improvement.rounds == 0);
+  if (!is_same_tree(tree_key_of(edits), built.key)) return false;
+  if (!built.accel->has_tree()) return true;
+  return edits.improve ? built.may_improve() || built.improvement.is_over
+                       : built.improvement.rounds == 0;
 }
 
 // Not before there is a picture: the first passes have all threads for themselves.
 bool Session::State::wants_improvement() {
-  return edits.improve && is_edited_model() && tree.accel && tree.accel->tree &&
-         !tree.improvement.is_over && renderer.status().samples > 0;
+  return edits.improve && is_edited_model() && tree.may_improve() && renderer.status().samples > 0;
+}
+
+bool Session::State::has_idle_tree() const {
+  return tree.tree && !(edits.improve && tree.may_improve());
+}
+
+void Session::State::let_go_of_tree(std::unique_lock<std::mutex>& lock) {
+  auto idle = std::exchange(tree.tree, nullptr);
+  lock.unlock();
+  idle.reset();  // takes milliseconds where it is large
+  lock.lock();
+  post_news();
 }
 
 std::shared_ptr<tracer::Progress> Session::State::begin_job(JobKind kind, std::string path) {
@@ -240,7 +257,7 @@ void Session::State::build(std::unique_lock<std::mutex>& lock) {
 
 void Session::State::use_tree(BuiltTree built) {
   tree = std::move(built);
-  quality_meter.set_accel(tree.accel);
+  quality_meter.set(tree.measurement);
 }
 
 void Session::State::improve(std::unique_lock<std::mutex>& lock) {
@@ -304,6 +321,7 @@ Status Session::State::status() {
     status.load_seconds = model->seconds;
   }
   status.tree = tree.metrics;
+  status.tree_bytes = tree.accel ? tree.bytes() : 0;
   status.tree_quality = quality_meter.quality();
   status.build_seconds = tree.seconds;
   status.improvement_rounds = tree.improvement.rounds;

@@ -2,6 +2,7 @@
 // Edits in, finished tiles out. Knows no window and no OpenGL.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -54,6 +55,9 @@ struct Status {
   std::shared_ptr<const tracer::ImportedScene> model;
   tracer::TreeMetrics tree;  // of the tree in use; nodes 0 when the BVH is off
   std::optional<tracer::TreeQuality> tree_quality;  // of the same tree, when it is known
+  // Held for the tree in use, beside the mesh: what is traced, and until it is improved and
+  // measured the binary tree that it was made of.
+  size_t tree_bytes = 0;
   int improvement_rounds = 0;  // of re-insertion that the tree in use has gained by
   double first_sah_cost = 0;   // of the tree in use, as it was built
   double load_seconds = 0;

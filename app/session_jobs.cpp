@@ -16,6 +16,15 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+void put(BuiltTree& built, BuiltAccel made) {
+  built.accel = std::move(made.accel);
+  built.tree = std::move(made.tree);
+  built.held_tree = built.tree;
+  if (!built.tree) return;
+  built.metrics = measure(*built.tree, sah_costs(built.key.settings));
+  built.measurement = std::make_shared<QualityMeasurement>(built.accel->mesh, built.tree);
+}
+
 }  // namespace
 
 LoadedModel load_model(const std::filesystem::path& path, tracer::Progress& progress) {
@@ -31,14 +40,13 @@ LoadedModel load_model(const std::filesystem::path& path, tracer::Progress& prog
 
 BuiltTree build_tree(const std::shared_ptr<const tracer::Mesh>& mesh, const TreeKey& key,
                      tracer::Progress& progress) {
-  BuiltTree built{.key = key, .accel = nullptr, .metrics = {}, .seconds = 0, .improvement = {}};
+  BuiltTree built;
+  built.key = key;
   const auto start = Clock::now();
-  built.accel = build_accel(mesh, key, progress);
-  if (built.accel->tree) {
-    built.seconds = seconds_since(start);
-    built.metrics = measure(*built.accel, sah_costs(key.settings));
-    built.improvement.first_sah_cost = built.metrics.sah_cost;
-  }
+  BuiltAccel made = build_accel(mesh, key, progress);
+  if (made.tree) built.seconds = seconds_since(start);
+  put(built, std::move(made));
+  built.improvement.first_sah_cost = built.metrics.sah_cost;
   progress.throw_if_stopped();
   return built;
 }
@@ -49,16 +57,13 @@ BuiltTree improve_tree(const BuiltTree& built, tracer::Progress& progress) {
   BuiltTree improved = built;
   tracer::run_at_low_priority([&] {
     progress.start_stage("improving the tree");
-    tracer::BvhTree tree = reinsert(*built.accel->tree, built.key.settings, progress);
+    tracer::BvhTree tree = reinsert(*built.tree, built.key.settings, progress);
     improved.improvement.is_over =
         !(measure(tree, costs).sah_cost < (1 - least_gain) * built.metrics.sah_cost);
     if (improved.improvement.is_over) return;
-    improved.accel = std::make_shared<const tracer::Accel>(
-        make_accel(built.accel->mesh, std::move(tree), *built.key.layout, progress));
+    put(improved, lay_out(built.accel->mesh, std::move(tree), *built.key.layout, progress));
+    ++improved.improvement.rounds;
   });
-  if (improved.improvement.is_over) return improved;
-  improved.metrics = measure(*improved.accel, costs);
-  ++improved.improvement.rounds;
   return improved;
 }
 

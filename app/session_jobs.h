@@ -2,12 +2,14 @@
 // What the session's job thread does, as functions of their arguments alone.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
 
 #include "app/build_accel.h"
+#include "app/session_quality.h"
 #include "tracer/base/progress.h"
 #include "tracer/bvh/build.h"
 #include "tracer/bvh/metrics.h"
@@ -26,9 +28,20 @@ struct Improvement {
 struct BuiltTree {
   TreeKey key;
   std::shared_ptr<const tracer::Accel> accel;
+  // What the accel was made of, as long as it may be improved; nullptr without a builder.
+  std::shared_ptr<const tracer::BvhTree> tree;
+  std::shared_ptr<QualityMeasurement> measurement;
+  std::weak_ptr<const tracer::BvhTree> held_tree;  // by anybody
   tracer::TreeMetrics metrics;
   double seconds = 0;
   Improvement improvement{};
+
+  bool may_improve() const { return tree && !improvement.is_over; }
+  /// That are held because of it at present, beside the mesh.
+  size_t bytes() const {
+    const bool is_held_beside = !held_tree.expired() && !accel->tree;
+    return accel->bytes() + (is_held_beside ? metrics.bytes : 0);
+  }
 };
 
 struct LoadedModel {

@@ -27,11 +27,10 @@ QualityMeter::~QualityMeter() {
   thread_.join();
 }
 
-void QualityMeter::set_accel(std::shared_ptr<const tracer::Accel> accel) {
+void QualityMeter::set(std::shared_ptr<QualityMeasurement> measurement) {
   {
     const std::lock_guard lock(mutex_);
-    accel_ = accel && accel->tree ? std::move(accel) : nullptr;
-    quality_.reset();
+    measurement_ = std::move(measurement);
     restart_rest();
   }
   changed_.notify_one();
@@ -49,14 +48,14 @@ void QualityMeter::restart_rest() {
 
 std::optional<tracer::TreeQuality> QualityMeter::quality() {
   const std::lock_guard lock(mutex_);
-  return quality_;
+  return measurement_ ? measurement_->quality : std::nullopt;
 }
 
 void QualityMeter::run() {
   tracer::lower_priority(tracer::Priority::idle);
   std::unique_lock lock(mutex_);
   while (!is_quitting_) {
-    if (!accel_) {
+    if (!measurement_ || !measurement_->tree) {
       changed_.wait(lock);
     } else if (Clock::now() < rest_end_) {
       const Clock::time_point due = rest_end_;
@@ -69,12 +68,13 @@ void QualityMeter::run() {
 
 void QualityMeter::measure(std::unique_lock<std::mutex>& lock) {
   const auto progress = progress_ = std::make_shared<tracer::Progress>();
-  const auto accel = accel_;
+  const auto measurement = measurement_;
+  auto tree = measurement->tree;
   lock.unlock();
   std::optional<tracer::TreeQuality> measured;
   try {
     tracer::on_one_thread([&] {
-      measured = measure_quality(*accel->tree, *accel->mesh, tracer::SahCosts{}, *progress);
+      measured = measure_quality(*tree, *measurement->mesh, tracer::SahCosts{}, *progress);
     });
   } catch (const tracer::Cancelled&) {
   } catch (const std::bad_alloc&) {
@@ -83,8 +83,11 @@ void QualityMeter::measure(std::unique_lock<std::mutex>& lock) {
   lock.lock();
   progress_.reset();
   if (progress->stop_requested()) return;
-  accel_.reset();
-  quality_ = measured;
+  measurement->quality = measured;
+  measurement->tree.reset();
+  lock.unlock();
+  tree.reset();  // takes milliseconds where it is large and nobody else needs it
+  lock.lock();
   notify_();
 }
 

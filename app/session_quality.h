@@ -11,9 +11,17 @@
 #include <thread>
 
 #include "tracer/bvh/quality.h"
-#include "tracer/bvh/trace/accel.h"
+#include "tracer/bvh/tree.h"
+#include "tracer/geometry/mesh.h"
 
 namespace app {
+
+/// A tree to be measured, let go once it is. Only the meter that it was given to looks inside.
+struct QualityMeasurement {
+  std::shared_ptr<const tracer::Mesh> mesh;
+  std::shared_ptr<const tracer::BvhTree> tree;
+  std::optional<tracer::TreeQuality> quality{};
+};
 
 /// Measures on one thread of low priority, once the user has rested for a moment, so that neither
 /// picture nor sliders wait for it.
@@ -25,11 +33,11 @@ class QualityMeter {
   QualityMeter(const QualityMeter&) = delete;
   QualityMeter& operator=(const QualityMeter&) = delete;
 
-  /// Forgets the tree before; nullptr, or one without a tree: there is nothing to measure.
-  void set_accel(std::shared_ptr<const tracer::Accel> accel);
+  /// Of the tree in use from now on; nullptr: there is none.
+  void set(std::shared_ptr<QualityMeasurement> measurement);
   /// The user is at work: what is being measured is begun again when that is over.
   void postpone();
-  /// Of the tree that was set last, when it is known.
+  /// Of the tree in use, when it is known.
   std::optional<tracer::TreeQuality> quality();
 
  private:
@@ -42,8 +50,7 @@ class QualityMeter {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool is_quitting_ = false;
-  std::shared_ptr<const tracer::Accel> accel_;  // to be measured
-  std::optional<tracer::TreeQuality> quality_;
+  std::shared_ptr<QualityMeasurement> measurement_;
   Clock::time_point rest_end_;
   std::shared_ptr<tracer::Progress> progress_;  // of what is being measured
   std::thread thread_;

@@ -20,7 +20,7 @@ double now_seconds() {
 }
 
 TraceMode mode_of(const tracer::World& world) {
-  return world.accel->tree ? TraceMode::bvh : TraceMode::brute_force;
+  return world.accel->has_tree() ? TraceMode::bvh : TraceMode::brute_force;
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 namespace app {
 
 void add_tree(nlohmann::ordered_json& json, const tracer::TreeMetrics& metrics,
-              const tracer::TreeQuality& quality) {
+              const tracer::TreeQuality& quality, size_t bytes) {
   json["nodes"] = metrics.node_count;
   json["leaves"] = metrics.leaf_count;
   json["references"] = metrics.reference_count;
@@ -19,7 +19,7 @@ void add_tree(nlohmann::ordered_json& json, const tracer::TreeMetrics& metrics,
   json["epo_sampled_triangles"] = quality.epo.sample_count;
   json["lcv"] = quality.lcv.value;
   json["lcv_rays"] = quality.lcv.ray_count;
-  json["tree_bytes"] = metrics.bytes;
+  json["tree_bytes"] = bytes;
 }
 
 }  // namespace app

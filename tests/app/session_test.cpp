@@ -14,6 +14,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "app/build_accel.h"
 #include "tests/support/test_ball.h"
 
 namespace app {
@@ -374,6 +375,54 @@ TEST_F(SessionTest, without_improvement_the_tree_is_as_it_was_built) {
   session_->set(edits_);
   ASSERT_TRUE(wait_until([this] { return status_.improvement_rounds == 0 && is_done(); }));
   EXPECT_EQ(status_.tree.sah_cost, status_.first_sah_cost);
+}
+
+TEST_F(SessionTest, a_settled_session_holds_the_tree_in_the_one_form_that_is_traced) {
+  for (const tracer::Layout& layout : tracer::layouts()) {
+    for (const bool improve : {false, true}) {
+      edits_.layout = &layout;
+      edits_.improve = improve;
+      edits_.model_generation = 0;
+      ASSERT_TRUE(show(ball("ball.obj", 24)));
+      ASSERT_TRUE(wait_until([this] { return status_.tree_quality.has_value(); }));
+      tracer::Progress progress;
+      const BuiltAccel expected = build_accel(
+          status_.model->scene.mesh,
+          {edits_.builder, &layout, edits_.build, status_.improvement_rounds}, progress);
+      EXPECT_TRUE(wait_until([&] { return status_.tree_bytes == expected.accel->bytes(); }))
+          << layout.name << ": " << status_.tree_bytes << " of " << expected.accel->bytes();
+      EXPECT_EQ(status_.tree.bytes, expected.tree->bytes());
+      session_ = std::make_unique<Session>([] {});
+      status_ = {};
+    }
+  }
+}
+
+TEST_F(SessionTest, the_binary_tree_counts_as_long_as_it_is_held) {
+  session_->set(edits_);
+  session_->open(ball("ball.obj", 96));
+  ASSERT_TRUE(wait_until([this] { return status_.model != nullptr; }));
+  tracer::Progress progress;
+  const BuiltAccel built = build_accel(status_.model->scene.mesh, {}, progress);
+  EXPECT_EQ(status_.tree_bytes,
+            built.accel->bytes() + (built.accel->tree ? 0 : built.tree->bytes()));
+}
+
+TEST_F(SessionTest, what_was_measured_is_still_known_after_the_bvh_was_off) {
+  ASSERT_TRUE(show(ball("ball.obj", 24)));
+  ASSERT_TRUE(wait_until([this] { return status_.tree_quality.has_value(); }));
+  const double epo = status_.tree_quality->epo.value;
+  const auto switch_to = [&](const tracer::Builder* builder) {
+    edits_.builder = builder;
+    session_->set(edits_);
+    return wait_until([&] { return (status_.tree.node_count > 0) == (builder != nullptr); });
+  };
+  const tracer::Builder* const builder = edits_.builder;
+  ASSERT_TRUE(switch_to(nullptr));
+  EXPECT_EQ(status_.tree_bytes, 0u);
+  ASSERT_TRUE(switch_to(builder));
+  ASSERT_TRUE(status_.tree_quality.has_value());
+  EXPECT_EQ(status_.tree_quality->epo.value, epo);
 }
 
 TEST_F(SessionTest, improvement_gives_way_to_whatever_needs_another_tree) {

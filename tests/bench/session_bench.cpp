@@ -113,7 +113,7 @@ void bench_stop(benchmark::State& state, const std::string& path) {
   auto scene = std::make_shared<tracer::Scene>(tracer::import_obj(path, progress).scene);
   const tracer::Mesh& mesh = *scene->mesh;
   const tracer::World world{
-      scene, std::make_shared<tracer::Accel>(tracer::Accel{scene->mesh, {}}),
+      scene, std::make_shared<tracer::Accel>(tracer::Accel{scene->mesh}),
       make_camera_frame(default_camera(mesh.bounds, mesh.origin, 16.0 / 9), size_px, mesh.origin)};
   for (auto _ : state) {
     tracer::Film film(size_px);

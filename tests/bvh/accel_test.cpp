@@ -69,7 +69,7 @@ bool are_same_bits(const Hit& a, const Hit& b) {
 }
 
 void expect_trees_to_answer_as_brute_force(const Mesh& mesh, const std::vector<Ray>& rays) {
-  Accel accel{std::make_shared<const Mesh>(mesh), std::nullopt};
+  Accel accel{std::make_shared<const Mesh>(mesh)};
   const std::vector<Answer> expected = answers(accel, rays);
   int hit_count = 0;
   for (const Answer& answer : expected) {
@@ -82,7 +82,8 @@ void expect_trees_to_answer_as_brute_force(const Mesh& mesh, const std::vector<R
     for (const int max_depth : {1, 5, 30, 64}) {
       for (const int leaf_size : {1, 4, 64}) {
         Progress progress;
-        accel.tree = builder.build(mesh_primitives(mesh, boxes), {max_depth, leaf_size}, progress);
+        accel.tree = std::make_shared<const BvhTree>(
+            builder.build(mesh_primitives(mesh, boxes), {max_depth, leaf_size}, progress));
         const std::vector<Answer> found = answers(accel, rays);
         for (size_t i = 0; i < rays.size(); ++i) {
           ASSERT_TRUE(are_same_bits(found[i].hit, expected[i].hit) &&
@@ -149,7 +150,8 @@ bool moeller_trumbore(const Ray& ray, const Vec3f& v0, const Vec3f& v1, const Ve
 TEST(Accel, no_ray_aimed_at_an_edge_or_vertex_leaks_into_a_closed_mesh) {
   const auto mesh = std::make_shared<const Mesh>(rough_ball(10, 0.02f, 7));
   Progress progress;
-  const Accel accel{mesh, builders()[0].build(primitive_boxes(*mesh), {}, progress)};
+  const Accel accel{mesh, std::make_shared<const BvhTree>(
+                              builders()[0].build(primitive_boxes(*mesh), {}, progress))};
   const StopFlag stop;
   RayCaster caster(accel, stop);
   RandomSource random(7);
@@ -179,7 +181,7 @@ TEST(Accel, a_mesh_without_triangles_is_never_hit) {
   Progress progress;
   const StopFlag stop;
   const auto mesh = std::make_shared<const Mesh>();
-  for (const Accel& accel : {Accel{mesh, std::nullopt}, Accel{mesh, BvhTree()}}) {
+  for (const Accel& accel : {Accel{mesh}, Accel{mesh, std::make_shared<const BvhTree>()}}) {
     RayCaster caster(accel, stop);
     EXPECT_FALSE(caster.closest_hit({.origin{0, 0, 0}, .direction{1, 0, 0}}).is_hit());
     EXPECT_FALSE(caster.occluded({.origin{0, 0, 0}, .direction{1, 0, 0}}));
@@ -190,7 +192,7 @@ TEST(Accel, rays_answer_with_a_miss_once_stopped) {
   const auto mesh = std::make_shared<const Mesh>(rough_ball(30, 0, 1));
   Progress progress;
   const BvhTree tree = builders()[0].build(primitive_boxes(*mesh), {}, progress);
-  std::vector<Accel> accels{{mesh, std::nullopt}};
+  std::vector<Accel> accels{{mesh}};
   for (const Layout& layout : layouts()) {
     accels.push_back(make_accel(mesh, tree, layout, progress));
   }

@@ -72,8 +72,9 @@ bool is_delicate(const Mesh& mesh, const Ray& ray, const Hit& hit) {
 void expect_agreement(const Mesh& mesh) {
   const EmbreeScene embree(mesh);
   Progress progress;
-  const Accel accel{std::make_shared<const Mesh>(mesh),
-                    builders()[0].build(primitive_boxes(mesh), {}, progress)};
+  const Accel accel{
+      std::make_shared<const Mesh>(mesh),
+      std::make_shared<const BvhTree>(builders()[0].build(primitive_boxes(mesh), {}, progress))};
   const StopFlag stop;
   RayCaster caster(accel, stop);
   RandomSource random(1);

@@ -107,7 +107,7 @@ TEST(SpatialSplit, cut_triangles_give_the_bits_of_brute_force) {
   const BvhTree tree = build(*mesh, {.split_budget = 2});
   ASSERT_GT(tree.primitives.size(), 2200u);
   Progress progress;
-  const Accel brute_force{mesh, std::nullopt};
+  const Accel brute_force{mesh};
   for (const Layout& layout : layouts()) {
     const Accel accel = make_accel(mesh, tree, layout, progress);
     const StopFlag stop;

@@ -73,7 +73,8 @@ World make_world(const Triangles& triangles, const std::vector<Material>& materi
   accel->mesh = scene->mesh;
   if (tracing == Tracing::tree) {
     Progress progress;
-    accel->tree = builders().front().build(primitive_boxes(*scene->mesh), {}, progress);
+    accel->tree = std::make_shared<const BvhTree>(
+        builders().front().build(primitive_boxes(*scene->mesh), {}, progress));
   }
   return {.scene = scene, .accel = accel, .camera = {}, .sky = sky};
 }

@@ -34,6 +34,7 @@ TEST(Format, times_change_their_unit_where_digits_would_run_out) {
 TEST(Format, large_counts_take_a_prefix) {
   EXPECT_EQ(format_large(950).value, "950");
   EXPECT_EQ(format_large(7423456).value + format_large(7423456).unit, "7.42M");
+  EXPECT_EQ(format_bytes(61204000).value + format_bytes(61204000).unit, "61.2MB");
 }
 
 TEST(Format, field_names_become_labels) {

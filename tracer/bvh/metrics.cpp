@@ -17,7 +17,7 @@ TreeMetrics measure(const BvhTree& tree, const SahCosts& costs) {
   TreeMetrics metrics;
   metrics.node_count = static_cast<uint32_t>(tree.nodes.size());
   metrics.reference_count = static_cast<uint32_t>(tree.primitives.size());
-  metrics.bytes = tree.nodes.size() * sizeof(BvhNode) + tree.primitives.size() * sizeof(uint32_t);
+  metrics.bytes = tree.bytes();
   metrics.costs = costs;
   if (tree.nodes.empty()) return metrics;
 

@@ -36,7 +36,7 @@ struct TreeMetrics {
   SahCosts costs;
   // [MacDonald 1990]: what a ray through the root pays, as it would be if nothing stopped it.
   double sah_cost = 0;
-  size_t bytes = 0;
+  size_t bytes = 0;  // of the binary form
 };
 
 inline SahCosts sah_costs(const BuildSettings& settings) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -27,6 +28,10 @@ static_assert(sizeof(BvhNode) == 32);
 struct BvhTree {
   std::vector<BvhNode> nodes;
   std::vector<uint32_t> primitives;
+
+  size_t bytes() const {
+    return nodes.size() * sizeof(BvhNode) + primitives.size() * sizeof(uint32_t);
+  }
 };
 
 /// Empty when every invariant of the tree over `primitives` holds, else the first that does not, in

@@ -54,6 +54,11 @@ Quantity format_large(double value) {
   return {format_three_digits(value), ""};
 }
 
+Quantity format_bytes(uint64_t bytes) {
+  const Quantity size = format_large(static_cast<double>(bytes));
+  return {size.value, size.unit + 'B'};
+}
+
 std::string format_label(const char* field_name) {
   std::string label = field_name;
   std::replace(label.begin(), label.end(), '-', ' ');

@@ -21,6 +21,8 @@ Quantity format_seconds(double seconds);
 std::string format_three_digits(double value);
 /// 3.4e9 -> {"3.40", "G"}: for large counts that grow while one looks at them.
 Quantity format_large(double value);
+/// 61.2e6 -> {"61.2", "MB"}.
+Quantity format_bytes(uint64_t bytes);
 /// "face index 0" -> "Face index 0", "max-depth" -> "Max depth".
 std::string format_label(const char* field_name);
 

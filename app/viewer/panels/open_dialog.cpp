@@ -12,8 +12,8 @@ namespace {
 constexpr size_t rows_a_page = 10;
 
 std::string format_size(uint64_t size_bytes) {
-  const Quantity size = format_large(static_cast<double>(size_bytes));
-  return size.value + ' ' + size.unit + 'B';
+  const Quantity size = format_bytes(size_bytes);
+  return size.value + ' ' + size.unit;
 }
 
 }  // namespace

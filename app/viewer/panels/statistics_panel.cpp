@@ -20,6 +20,10 @@ Quantity rate(double mrays_per_second) {
   return {mrays_per_second > 0 ? format_three_digits(mrays_per_second) : "–", "Mray/s"};
 }
 
+Quantity memory(size_t bytes) {
+  return bytes > 0 ? format_bytes(bytes) : Quantity{"–", "MB"};
+}
+
 void draw_speed_up(const Ui& ui, const Status& status) {
   const double speed_up = speed_up_of(status);
   ImGui::Dummy(ImVec2(0, 1 * ui.scale));
@@ -122,7 +126,10 @@ void draw_tree(const Ui& ui, const Status& status) {
   cell_row(ui, {{"Build", has_tree ? format_seconds(status.build_seconds) : Quantity{"–", "ms"},
                  "Building the tree and laying it out for the traversal."},
                 {"Load", status.model ? format_seconds(status.load_seconds) : Quantity{"–", "ms"},
-                 "Reading the file and making a mesh of it."}});
+                 "Reading the file and making a mesh of it."},
+                {"Memory", memory(status.tree_bytes),
+                 "Held for the tree beside the mesh. The binary tree that was laid out for the "
+                 "traversal counts until it is improved and measured, and is let go then."}});
 }
 
 void draw_tracing(const Ui& ui, const Status& status, int sample_limit) {

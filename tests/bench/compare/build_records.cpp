@@ -59,16 +59,14 @@ std::string build_table(std::span<const BuildRecord> records) {
   std::string table;
   for (const BuildRecord& record : records) {
     table +=
-        fmt::format("{:<8} {} thread{}  {:<14} {:>8.1f} ms ({:.1f} - {:.1f})  {:>5.1f} B",
+        fmt::format("{:<8} {} thread{}  {:<14} {:>8.1f} ms ({:.1f} - {:.1f})  {:>5.1f} B held",
                     record.scene, record.threads, record.threads == 1 ? " " : "s", record.builder,
                     record.ms.median, record.ms.min, record.ms.max, record.bytes_a_triangle());
     if (record.ratio > 0) table += fmt::format("  x{:.2f} MEDIUM", record.ratio);
     if (record.is_ours()) {
-      table +=
-          fmt::format("  SAH {:.2f}  tree {:.1f} ms + layout {:.1f} ms, {:.1f} + {:.1f} B",
-                      record.sah, record.tree_ms.median, record.layout_ms.median,
-                      static_cast<double>(record.tree_bytes) / record.triangles,
-                      static_cast<double>(record.bytes - record.tree_bytes) / record.triangles);
+      table += fmt::format("  SAH {:.2f}  tree {:.1f} ms + layout {:.1f} ms, {:.1f} B let go",
+                           record.sah, record.tree_ms.median, record.layout_ms.median,
+                           static_cast<double>(record.tree_bytes) / record.triangles);
     }
     table += '\n';
   }
@@ -95,7 +93,7 @@ BarChart build_chart(std::span<const BuildRecord> records, int threads,
                   [](const BuildRecord& record) {
                     return fmt::format("{:.0f}", record.bytes_a_triangle());
                   }}));
-  chart.panels.back().title = "Memory beside the mesh";
+  chart.panels.back().title = "Memory held beside the mesh";
   chart.panels.back().axis = "bytes a triangle";
   return chart;
 }

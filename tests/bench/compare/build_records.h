@@ -18,13 +18,16 @@ namespace bench {
 struct BuildRecord {
   std::string scene;
   int threads = 1;
-  std::string builder;    // a name of Boxwood's table, or "embree" and its quality
-  Spread ms;              // wall-clock, to a tree that rays can be traced through
-  Spread tree_ms;         // of Boxwood: the binary tree alone
-  Spread layout_ms;       // of Boxwood: its layout for the kernels
-  double sah = 0;         // of the binary tree; 0 where it is not known
-  size_t bytes = 0;       // all told, beside the mesh
-  size_t tree_bytes = 0;  // of Boxwood: the binary tree's part of them
+  std::string builder;  // a name of Boxwood's table, or "embree" and its quality
+  Spread ms;            // wall-clock, to a tree that rays can be traced through
+  Spread tree_ms;       // of Boxwood: the binary tree alone
+  Spread layout_ms;     // of Boxwood: its layout for the kernels
+  double sah = 0;       // of the binary tree; 0 where it is not known
+  // Beside the mesh, for good: of Boxwood what rays are traced through, of Embree what is left in
+  // use once the scene is committed.
+  size_t bytes = 0;
+  size_t tree_bytes =
+      0;  // of Boxwood: the binary tree, let go once laid out, improved and measured
   uint32_t triangles = 0;
   double ratio = 0;  // of the time to Embree MEDIUM's, median over the rounds; 0 without Embree
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,6 +16,7 @@
 #include "tests/bench/compare/report_files.h"
 #include "tracer/base/parallel.h"
 #include "tracer/bvh/build.h"
+#include "tracer/bvh/metrics.h"
 #include "tracer/bvh/trace/accel.h"
 
 namespace bench {
@@ -41,13 +42,12 @@ struct Contestant {
 BuildRun build_ours(const tracer::Builder& builder, const Scene& scene) {
   tracer::Progress progress;
   const app::Stopwatch stopwatch;
-  std::optional<tracer::BvhTree> tree = builder.build(primitive_boxes(*scene.mesh), {}, progress);
+  const auto tree = std::make_shared<const tracer::BvhTree>(
+      builder.build(primitive_boxes(*scene.mesh), {}, progress));
   const double tree_ms = 1000 * stopwatch.seconds();
-  const tracer::Accel accel =
-      make_accel(scene.mesh, std::move(tree), tracer::layouts().front(), progress);
+  const tracer::Accel accel = make_accel(scene.mesh, tree, tracer::layouts().front(), progress);
   const double ms = 1000 * stopwatch.seconds();
-  const tracer::TreeMetrics of_tree = measure(*accel.tree);
-  return {ms, tree_ms, ms - tree_ms, of_tree.sah_cost, measure(accel).bytes, of_tree.bytes};
+  return {ms, tree_ms, ms - tree_ms, measure(*tree).sah_cost, accel.bytes(), tree->bytes()};
 }
 
 #ifdef BOXWOOD_EMBREE

@@ -24,7 +24,7 @@ bool agree(tracer::RayCaster& a, tracer::RayCaster& b, const tracer::Ray& ray, Q
 }  // namespace
 
 OracleVerdict ask_oracle(const tracer::Accel& accel, const RaySet& set) {
-  const tracer::Accel brute_force{accel.mesh, std::nullopt};
+  const tracer::Accel brute_force{accel.mesh};
   const size_t affordable = triangle_tests / std::max<size_t>(accel.mesh->triangle_count(), 1);
   const size_t count = std::min(set.rays.size(), std::clamp<size_t>(affordable, 4, most_rays));
   std::atomic<uint64_t> disagreements{0};

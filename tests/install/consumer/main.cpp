@@ -10,8 +10,9 @@ int main() {
   mesh->positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh->triangles = {{0, 1, 2}};
   tracer::Progress progress;
-  tracer::Accel accel{mesh};
-  accel.tree = tracer::builders().front().build(primitive_boxes(*mesh), {}, progress);
+  const tracer::Accel accel =
+      make_accel(mesh, tracer::builders().front().build(primitive_boxes(*mesh), {}, progress),
+                 tracer::layouts().front(), progress);
 
   const tracer::StopFlag stop;
   tracer::RayCaster rays(accel, stop);

@@ -6,6 +6,7 @@
 
 #include "tracer/bvh/trace/recursive.h"
 #include "tracer/bvh/trace/wide_kernels.h"
+#include "tracer/bvh/trace/wide_scalar.h"
 #include "tracer/geometry/triangle.h"
 
 namespace tracer {
@@ -30,6 +31,7 @@ void lay_out_wide(Accel& accel, Progress& progress) {
   if (width > 0 && accel.tree && !accel.tree->nodes.empty()) {
     accel.wide = std::make_shared<const WideTree>(
         build_wide_tree(*accel.tree, *accel.mesh, width, progress));
+    accel.tree.reset();
   }
 }
 
@@ -53,28 +55,28 @@ const Layout* find_layout(std::string_view name) {
   return found == std::end(layout_table) ? nullptr : found;
 }
 
-Accel make_accel(std::shared_ptr<const Mesh> mesh, std::optional<BvhTree> tree,
+Accel make_accel(std::shared_ptr<const Mesh> mesh, std::shared_ptr<const BvhTree> tree,
                  const Layout& layout, Progress& progress) {
   Accel accel{std::move(mesh), std::move(tree)};
   layout.lay_out(accel, progress);
   return accel;
 }
 
-TreeMetrics measure(const Accel& accel, const SahCosts& costs) {
-  TreeMetrics metrics;
-  if (accel.tree) metrics = measure(*accel.tree, costs);
-  if (accel.wide) metrics.bytes += accel.wide->bytes();
-  return metrics;
+Accel make_accel(std::shared_ptr<const Mesh> mesh, std::optional<BvhTree> tree,
+                 const Layout& layout, Progress& progress) {
+  auto shared = tree ? std::make_shared<const BvhTree>(*std::move(tree)) : nullptr;
+  return make_accel(std::move(mesh), std::move(shared), layout, progress);
 }
 
 Hit RayCaster::closest_hit(const Ray& ray) {
   ++ray_count_;
   if (stop_.requested()) return {};
+  const auto intersect = triangle_intersector(*accel_.mesh, stop_);
   if (accel_.wide) {
     Hit hit;
     if (closest_hit_wide(*accel_.wide, ray, stop_, hit)) return hit;
+    return closest_hit_scalar(*accel_.wide, ray, intersect);
   }
-  const auto intersect = triangle_intersector(*accel_.mesh, stop_);
   if (accel_.tree) return closest_hit_recursive(*accel_.tree, ray, intersect);
   Hit best;
   for (uint32_t i = 0; i < accel_.mesh->triangle_count(); ++i) {
@@ -88,11 +90,12 @@ Hit RayCaster::closest_hit(const Ray& ray) {
 bool RayCaster::occluded(const Ray& ray) {
   ++ray_count_;
   if (stop_.requested()) return false;
+  const auto intersect = triangle_intersector(*accel_.mesh, stop_);
   if (accel_.wide) {
     Hit hit;
     if (occluded_wide(*accel_.wide, ray, stop_, hit)) return hit.is_hit();
+    return occluded_scalar(*accel_.wide, ray, intersect);
   }
-  const auto intersect = triangle_intersector(*accel_.mesh, stop_);
   if (accel_.tree) return occluded_recursive(*accel_.tree, ray, intersect);
   for (uint32_t i = 0; i < accel_.mesh->triangle_count(); ++i) {
     if (i % triangles_a_look == 0 && stop_.requested()) return false;

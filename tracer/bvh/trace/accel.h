@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -9,18 +10,21 @@
 
 #include "tracer/base/progress.h"
 #include "tracer/bvh/layout/wide_tree.h"
-#include "tracer/bvh/metrics.h"
 #include "tracer/bvh/tree.h"
 #include "tracer/geometry/mesh.h"
 
 namespace tracer {
 
-/// Everything that answers a ray: a mesh, and a tree over its triangles or none. Without a tree
-/// each ray meets every triangle. All ways answer with the same bits.
+/// Everything that answers a ray, and no more: a mesh, and a tree over its triangles in one form or
+/// none. Without a tree each ray meets every triangle. All ways answer with the same bits.
 struct Accel {
   std::shared_ptr<const Mesh> mesh;
-  std::optional<BvhTree> tree;
-  std::shared_ptr<const WideTree> wide = nullptr;  // the tree again, as the SIMD kernels take it
+  std::shared_ptr<const BvhTree> tree = nullptr;   // as the recursive reference takes it
+  std::shared_ptr<const WideTree> wide = nullptr;  // as the SIMD kernels take it
+
+  bool has_tree() const { return tree || wide; }
+  /// Of the tree, beside the mesh.
+  size_t bytes() const { return (tree ? tree->bytes() : 0) + (wide ? wide->bytes() : 0); }
 };
 
 /// A way to lay out and traverse a tree. To add one: its files, and one line in accel.cpp.
@@ -36,12 +40,13 @@ std::span<const Layout> layouts();
 /// nullptr when there is none of that name.
 const Layout* find_layout(std::string_view name);
 
-/// `tree` is over primitive_boxes(*mesh); nullopt for brute force. Throws Cancelled.
+/// `tree` is over primitive_boxes(*mesh); nullptr for brute force. Kept only where rays are traced
+/// through it: whoever needs it for anything else shares it. Throws Cancelled.
+Accel make_accel(std::shared_ptr<const Mesh> mesh, std::shared_ptr<const BvhTree> tree,
+                 const Layout& layout, Progress& progress);
+/// The same for a tree that nobody shares; nullopt for brute force.
 Accel make_accel(std::shared_ptr<const Mesh> mesh, std::optional<BvhTree> tree,
                  const Layout& layout, Progress& progress);
-
-/// Of its tree, with the bytes of both forms; all 0 without a tree.
-TreeMetrics measure(const Accel& accel, const SahCosts& costs = {});
 
 /// Answers the rays of one tile or one test on one thread, and counts them. When `stop` is
 /// requested, answers may be misses: the caller looks at the flag before it keeps a result.

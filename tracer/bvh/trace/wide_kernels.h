@@ -22,7 +22,7 @@ struct VisitCounts {
 };
 
 /// The closest hit: the same bits as the recursive reference gives over the same triangles. False
-/// where the ray is out of range and the reference must answer: the direction's largest component
+/// where the ray is out of range and wide_scalar.h must answer: the direction's largest component
 /// or the scene's and the origin's largest coordinate together not between 2^-36 and 2^36.
 /// `tree.width` equals wide_kernel_width(). Once `stop` is requested the answer may be a miss.
 [[nodiscard]] bool closest_hit_wide(const WideTree& tree, const Ray& ray, const StopFlag& stop,
