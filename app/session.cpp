@@ -14,6 +14,7 @@
 #include "app/session_jobs.h"
 #include "app/session_quality.h"
 #include "app/session_renderer.h"
+#include "tracer/base/freed_memory.h"
 #include "tracer/base/low_priority.h"
 
 namespace app {
@@ -152,8 +153,11 @@ bool Session::State::has_idle_tree() const {
 
 void Session::State::let_go_of_tree(std::unique_lock<std::mutex>& lock) {
   auto idle = std::exchange(tree.tree, nullptr);
+  const bool was_improved = tree.improvement.is_over;
   lock.unlock();
-  idle.reset();  // takes milliseconds where it is large
+  idle.reset();
+  // After a mere build another may follow soon, which is quicker in memory that is there.
+  if (was_improved) tracer::give_back_freed_memory();
   lock.lock();
   post_news();
 }

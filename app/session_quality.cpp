@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "tracer/base/freed_memory.h"
 #include "tracer/base/low_priority.h"
 #include "tracer/base/parallel.h"
 
@@ -86,7 +87,8 @@ void QualityMeter::measure(std::unique_lock<std::mutex>& lock) {
   measurement->quality = measured;
   measurement->tree.reset();
   lock.unlock();
-  tree.reset();  // takes milliseconds where it is large and nobody else needs it
+  tree.reset();
+  tracer::give_back_freed_memory();
   lock.lock();
   notify_();
 }

@@ -121,15 +121,15 @@ void draw_tree(const Ui& ui, const Status& status) {
                  "A ray that enters it is tested against so many triangles."}});
   draw_histograms(ui, tree);
   draw_costs(ui, status);
-  number_row(ui, "Improved", improvement(status),
-             "By how much re-insertion has lowered the SAH cost since the tree was built.");
-  cell_row(ui, {{"Build", has_tree ? format_seconds(status.build_seconds) : Quantity{"–", "ms"},
-                 "Building the tree and laying it out for the traversal."},
-                {"Load", status.model ? format_seconds(status.load_seconds) : Quantity{"–", "ms"},
-                 "Reading the file and making a mesh of it."},
+  cell_row(ui, {{"Improved", improvement(status),
+                 "By how much re-insertion has lowered the SAH cost since the tree was built."},
                 {"Memory", memory(status.tree_bytes),
                  "Held for the tree beside the mesh. The binary tree that was laid out for the "
                  "traversal counts until it is improved and measured, and is let go then."}});
+  cell_row(ui, {{"Build", has_tree ? format_seconds(status.build_seconds) : Quantity{"–", "ms"},
+                 "Building the tree and laying it out for the traversal."},
+                {"Load", status.model ? format_seconds(status.load_seconds) : Quantity{"–", "ms"},
+                 "Reading the file and making a mesh of it."}});
 }
 
 void draw_tracing(const Ui& ui, const Status& status, int sample_limit) {
