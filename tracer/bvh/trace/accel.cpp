@@ -71,12 +71,12 @@ Accel make_accel(std::shared_ptr<const Mesh> mesh, std::optional<BvhTree> tree,
 Hit RayCaster::closest_hit(const Ray& ray) {
   ++ray_count_;
   if (stop_.requested()) return {};
-  const auto intersect = triangle_intersector(*accel_.mesh, stop_);
   if (accel_.wide) {
     Hit hit;
     if (closest_hit_wide(*accel_.wide, ray, stop_, hit)) return hit;
-    return closest_hit_scalar(*accel_.wide, ray, intersect);
+    return closest_hit_scalar(*accel_.wide, ray, triangle_intersector(*accel_.mesh, stop_));
   }
+  const auto intersect = triangle_intersector(*accel_.mesh, stop_);
   if (accel_.tree) return closest_hit_recursive(*accel_.tree, ray, intersect);
   Hit best;
   for (uint32_t i = 0; i < accel_.mesh->triangle_count(); ++i) {
@@ -90,12 +90,12 @@ Hit RayCaster::closest_hit(const Ray& ray) {
 bool RayCaster::occluded(const Ray& ray) {
   ++ray_count_;
   if (stop_.requested()) return false;
-  const auto intersect = triangle_intersector(*accel_.mesh, stop_);
   if (accel_.wide) {
     Hit hit;
     if (occluded_wide(*accel_.wide, ray, stop_, hit)) return hit.is_hit();
-    return occluded_scalar(*accel_.wide, ray, intersect);
+    return occluded_scalar(*accel_.wide, ray, triangle_intersector(*accel_.mesh, stop_));
   }
+  const auto intersect = triangle_intersector(*accel_.mesh, stop_);
   if (accel_.tree) return occluded_recursive(*accel_.tree, ray, intersect);
   for (uint32_t i = 0; i < accel_.mesh->triangle_count(); ++i) {
     if (i % triangles_a_look == 0 && stop_.requested()) return false;
