@@ -188,23 +188,66 @@ TEST(Bundle, rays_from_different_points_are_no_bundle) {
   EXPECT_EQ(is_occluded[0], 7);
 }
 
-TEST(Bundle, rays_in_flight_give_the_bits_of_the_reference) {
-  const Mesh mesh = random_soup(2000, 0.2f, 1);
-  const StopFlag stop;
-  const Accel binary = accel_of(mesh, "binary");
-  RayCaster reference(binary, stop);
-  for_each_instruction_set([&](const std::string& set) {
-    SCOPED_TRACE(set);
-    const Accel wide = accel_of(mesh, "wide");
+/// Rays without anything in common, among them some that kernels leave to others.
+std::vector<Ray> rays_of_all_kinds(const Mesh& mesh, size_t count, RandomSource& random) {
+  std::vector<Ray> rays;
+  while (rays.size() < count) {
+    const bool ends = random.integer(0, 1) == 0;
+    rays.push_back(ends ? rays_to_a_point(mesh, 1, random)[0]
+                        : rays_from_a_point(mesh, 1, random)[0]);
+    if (random.integer(0, 99) == 0) rays.back().direction *= 0x1p100f;
+  }
+  return rays;
+}
+
+TEST(Stream, any_rays_give_the_bits_of_the_reference) {
+  for_each_caster([](const Mesh& mesh, RayCaster& caster, RayCaster& reference) {
     RandomSource random(13);
-    for (const size_t count : {1, 5, 12, 13, 1000}) {
-      std::vector<Ray> rays;
-      while (rays.size() < count) rays.push_back(rays_from_a_point(mesh, 1, random)[0]);
+    for (const size_t count : {1, 7, 8, 31, 33, 500}) {
+      const auto rays = rays_of_all_kinds(mesh, count, random);
       std::vector<Hit> hits(count);
-      ASSERT_EQ(closest_hits_in_flight(*wide.wide, rays, stop, hits), count);
+      caster.closest_hits(rays, hits);
       for (size_t k = 0; k < count; ++k) {
+        SCOPED_TRACE(k);
         ASSERT_NO_FATAL_FAILURE(expect_same_bits(hits[k], reference.closest_hit(rays[k])));
       }
+    }
+  });
+}
+
+TEST(Stream, any_rays_give_the_verdicts_of_the_reference) {
+  for_each_caster([](const Mesh& mesh, RayCaster& caster, RayCaster& reference) {
+    RandomSource random(15);
+    for (const size_t count : {1, 7, 8, 31, 33, 500}) {
+      const auto rays = rays_of_all_kinds(mesh, count, random);
+      std::vector<uint8_t> is_occluded(count);
+      caster.occluded(rays, is_occluded);
+      for (size_t k = 0; k < count; ++k) {
+        ASSERT_EQ(is_occluded[k] != 0, reference.occluded(rays[k])) << k;
+      }
+    }
+  });
+}
+
+// Else the two tests above would hold if no stream were ever traced.
+TEST(Stream, answers_all_rays_in_range_and_none_from_the_first_that_is_not) {
+  const Mesh mesh = random_soup(2000, 0.2f, 1);
+  const StopFlag stop;
+  for_each_instruction_set([&](const std::string& set) {
+    SCOPED_TRACE(set);
+    const Accel accel = accel_of(mesh, "wide");
+    RandomSource random(16);
+    std::vector<Ray> rays;
+    while (rays.size() < 100) rays.push_back(rays_from_a_point(mesh, 1, random)[0]);
+    std::vector<Hit> hits(rays.size());
+    std::vector<uint8_t> is_occluded(rays.size());
+    EXPECT_EQ(closest_hits_stream(*accel.wide, rays, stop, hits), 100u);
+    EXPECT_EQ(occluded_stream(*accel.wide, rays, stop, is_occluded), 100u);
+    for (const size_t out : {0, 1, 40, 99}) {
+      auto some = rays;
+      some[out].direction *= 0x1p100f;
+      EXPECT_EQ(closest_hits_stream(*accel.wide, some, stop, hits), out);
+      EXPECT_EQ(occluded_stream(*accel.wide, some, stop, is_occluded), out);
     }
   });
 }

@@ -205,6 +205,21 @@ TEST(Triangle, vertices_that_are_not_finite_are_never_hit) {
   }
 }
 
+TEST(Triangle, rays_that_are_not_finite_hit_nothing) {
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+        -std::numeric_limits<float>::infinity()}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Ray ray{.origin = {0.2f, 0.2f, -1}, .direction = {0, 0, 1}};
+      ray.direction[axis] = bad;
+      EXPECT_FALSE(intersect_triangle(ray, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
+      ray = {.origin = {0.2f, 0.2f, -1}, .direction = {0, 0, 1}};
+      ray.origin[axis] = bad;
+      EXPECT_FALSE(intersect_triangle(ray, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
+    }
+  }
+}
+
 TEST(Triangle, a_fan_around_a_vertex_lets_no_ray_through) {
   RandomSource random(7);
   for (int trial = 0; trial < trials; ++trial) {

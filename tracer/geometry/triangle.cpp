@@ -99,11 +99,13 @@ std::optional<TriangleHit> intersect_triangle(const Ray& ray, const Vec3f& v0, c
   const double determinant = glm::dot(direction, normal);
   Weights weights{determinant - v - w, v, w};
   const double u_bound = u_error * speed * length * (distance + length);
-  // Not "<=": NaN, where a vertex is not finite, must not be certain.
+  // Not "<=": NaN, where a vertex or the direction is not finite, must not be certain.
   const bool certain =
       std::abs(weights.u) > u_bound && std::abs(v) > v_w_bound && std::abs(w) > v_w_bound;
   if (!certain) {
-    if (!is_finite(to_v0) || !is_finite(edge1) || !is_finite(edge2)) return std::nullopt;
+    if (!is_finite(direction) || !is_finite(to_v0) || !is_finite(edge1) || !is_finite(edge2)) {
+      return std::nullopt;
+    }
     weights = exact_weights(ray, v0, v1, v2);
   }
   if (weights.has_opposite_signs() || weights.sum() == 0) return std::nullopt;

@@ -24,10 +24,15 @@ inline constexpr size_t bundle_size = 64;
 [[nodiscard]] bool occluded_bundle(const WideTree& tree, std::span<const Ray> rays,
                                    const StopFlag& stop, std::span<uint8_t> is_occluded);
 
-/// The closest hits of any rays, several under way at a time so that one works while another waits
-/// for memory. Returns how many it answered: rays up to the first that only closest_hit_wide takes,
-/// or up to where it was when `stop` was requested.
-size_t closest_hits_in_flight(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop,
-                              std::span<Hit> hits);
+/// The closest hits of any rays, many under way at a time so that one works while others wait for
+/// memory or for what they decide. [Barringer 2014] Returns how many it answered: rays up to the
+/// first that is out of the filter's range, or up to where it was when `stop` was requested: then
+/// some before that may be missing.
+size_t closest_hits_stream(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop,
+                           std::span<Hit> hits);
+
+/// Which of any rays meet anything: 1, or 0. Likewise.
+size_t occluded_stream(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop,
+                       std::span<uint8_t> is_occluded);
 
 }  // namespace tracer

@@ -67,6 +67,8 @@ class Traversal {
     for (size_t lane = 0; lane < width; ++lane) {
       const auto at = [&](size_t row) { return rows[row * width + lane]; };
       const Box box{.min = {at(0), at(2), at(4)}, .max = {at(1), at(3), at(5)}};
+      // An unused lane: a ray whose slabs are not numbers would enter it, and never come back.
+      if (box.is_empty()) continue;
       const auto [entry, exit] = box.intersect(slabs_);
       if (entry > exit || entry > ray_.t_max || exit < ray_.t_min) continue;
       entries[count++] = {entry, WideChild{std::bit_cast<uint32_t>(at(6))}};

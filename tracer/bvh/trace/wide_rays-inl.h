@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// What a node's slab tests and a block's filter need of a ray, and the slab tests, compiled once
+// for each instruction set. docs/numerics.md derives the bounds.
+#if defined(TRACER_WIDE_RAYS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRACER_WIDE_RAYS_INL_H
+#undef TRACER_WIDE_RAYS_INL_H
+#else
+#define TRACER_WIDE_RAYS_INL_H
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <cfloat>
+#include <cmath>
+#include <cstring>
+
+#include <hwy/highway.h>
+
+#include "tracer/bvh/layout/wide_tree.h"
+#include "tracer/geometry/ray.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tracer {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+#if HWY_TARGET != HWY_SCALAR
+
+using Floats = hn::CappedTag<float, 16>;
+using Lanes = hn::Vec<Floats>;
+
+constexpr float u = 0x1p-24f;  // half an ulp of 1
+// Between them no product of the filter over or underflows.
+constexpr float least_coordinate = 0x1p-36f;
+constexpr float greatest_coordinate = 0x1p36f;
+
+/// How the distance of a plane is computed. With one instruction, and an error relative to all
+/// coordinates of the scene; or with two, and an error relative to that distance: for rays in
+/// scenes much larger than their leaves.
+enum class Slabs { fused, exact };
+
+/// What of a ray the slab tests and the triangle filter need, computed once.
+struct RayConstants {
+  // One lane an axis, and one unused.
+  alignas(16) float inverse[4];
+  alignas(16) float near_offset[4];  // Slabs::fused: plane * inverse + offset,
+  alignas(16) float far_offset[4];   // the near one at most and the far one at least as far
+  alignas(16) float origin[4];       // Slabs::exact: (plane - origin) * inverse, within `pad` and
+  alignas(16) float pad[4];          // 3u relative
+  alignas(16) uint32_t near_row[4];  // of a node, in floats: min, or max for a negative direction
+  alignas(16) uint32_t far_row[4];
+  uint32_t row_x, row_y, row_z;  // of a vertex in a block; z: the direction's largest component
+  float origin_x, origin_y, origin_z;
+  float shear_x, shear_y;
+  float toward;             // sign of the largest component
+  float largest_component;  // its size
+  bool is_far_reaching;     // Slabs::exact pays
+  float slack;              // how far outside its box the padded slabs let a ray pass, at most
+  float t_min;              // rounded down
+};
+
+HWY_INLINE float round_up(double value) {
+  const float rounded = static_cast<float>(value);
+  return static_cast<double>(rounded) < value ? std::nextafterf(rounded, FLT_MAX * 2) : rounded;
+}
+
+struct SlabsThatPay {
+  Slabs operator()(bool is_far_reaching) const {
+    return is_far_reaching ? Slabs::exact : Slabs::fused;
+  }
+};
+
+/// Either are right for any ray.
+template <Slabs slabs>
+struct TheseSlabs {
+  Slabs operator()(bool) const { return slabs; }
+};
+
+/// Whether the ray is in the filter's range.
+template <class ChooseSlabs = SlabsThatPay>
+HWY_INLINE bool prepare(const WideTree& tree, const Ray& ray, RayConstants& c,
+                        ChooseSlabs choose_slabs = {}) {
+  const auto width = static_cast<uint32_t>(hn::Lanes(Floats()));
+  const hn::FixedTag<float, 4> d4;
+  const hn::RebindToUnsigned<decltype(d4)> du4;
+  const Vec3f& o = ray.origin;
+  const Vec3f& direction = ray.direction;
+  // In registers: a load of what was stored in smaller parts would wait for the stores.
+  const auto lanes = [&](const Vec3f& v, float unused) {
+    return hn::ConcatLowerLower(d4, hn::InterleaveLower(d4, hn::Set(d4, v.z), hn::Set(d4, unused)),
+                                hn::InterleaveLower(d4, hn::Set(d4, v.x), hn::Set(d4, v.y)));
+  };
+  const auto origin = lanes(o, 0);
+  const auto component = lanes(direction, greatest_coordinate);
+  const auto size = hn::Abs(component);
+
+  // Of all coordinates that meet in a slab test.
+  const float reach =
+      std::max(std::max(std::abs(o.x), std::abs(o.y)), std::abs(o.z)) + tree.max_coordinate;
+  const float size_x = std::abs(direction.x), size_y = std::abs(direction.y);
+  const float size_z = std::abs(direction.z), size_xy = std::max(size_x, size_y);
+  c.largest_component = std::max(size_xy, size_z);
+  // Not ">=": NaN is out of range.
+  if (!(reach > least_coordinate && reach < greatest_coordinate &&
+        c.largest_component < greatest_coordinate && c.largest_component > least_coordinate))
+    return false;
+  auto inverse = hn::Div(hn::Set(d4, 1.0f), component);
+  // A component so small that it moves the ray by less than the slack within the scene counts as
+  // this small, and its slab is widened to last for all distances that matter.
+  const auto smallest = hn::Set(d4, 0x1p-40f * c.largest_component);
+  const auto is_parallel = hn::Lt(size, smallest);
+  const bool has_parallel = !hn::AllFalse(d4, is_parallel);
+  if (HWY_UNLIKELY(has_parallel)) {
+    inverse = hn::Div(hn::Set(d4, 1.0f), hn::CopySign(hn::Max(size, smallest), component));
+  }
+  c.slack = 32 * u * reach;
+  c.is_far_reaching = c.slack > tree.typical_extent * 0x1p-6f;
+  const auto wide_pad = hn::Mul(hn::Abs(inverse), hn::Set(d4, 16 * u * reach));
+  if (HWY_LIKELY(choose_slabs(c.is_far_reaching) == Slabs::fused)) {
+    const auto offset = hn::Neg(hn::Mul(origin, inverse));
+    const auto pad = hn::IfThenElse(is_parallel, wide_pad, hn::Mul(wide_pad, hn::Set(d4, 0.5f)));
+    hn::Store(hn::Sub(offset, pad), d4, c.near_offset);
+    hn::Store(hn::Add(offset, pad), d4, c.far_offset);
+  } else {
+    const auto least_pad = hn::Set(d4, FLT_MIN);  // what underflows rounds absolutely
+    if (!has_parallel) c.slack = 0;
+    hn::Store(origin, d4, c.origin);
+    hn::Store(hn::IfThenElse(is_parallel, wide_pad, least_pad), d4, c.pad);
+  }
+  hn::Store(inverse, d4, c.inverse);
+  const auto min_row = hn::Mul(hn::Iota(du4, 0), hn::Set(du4, 2 * width));
+  const auto max_row = hn::Add(min_row, hn::Set(du4, width));
+  const auto is_negative = hn::MaskFromVec(hn::BitCast(
+      du4, hn::BroadcastSignBit(hn::BitCast(hn::RebindToSigned<decltype(d4)>(), component))));
+  hn::Store(hn::IfThenElse(is_negative, max_row, min_row), du4, c.near_row);
+  hn::Store(hn::IfThenElse(is_negative, min_row, max_row), du4, c.far_row);
+
+  // Without branches: the largest component of random rays is not to be foreseen.
+  const int z = size_z > size_xy ? 2 : static_cast<int>(size_y > size_x);
+  constexpr uint8_t next[3] = {1, 2, 0};
+  const int x = next[z];
+  const int y = next[x];
+  c.row_x = static_cast<uint32_t>(x) * width;
+  c.row_y = static_cast<uint32_t>(y) * width;
+  c.row_z = static_cast<uint32_t>(z) * width;
+  c.origin_x = o[x];
+  c.origin_y = o[y];
+  c.origin_z = o[z];
+  c.shear_x = direction[x] * c.inverse[z];
+  c.shear_y = direction[y] * c.inverse[z];
+  c.toward = std::copysign(1.0f, direction[z]);
+  const auto t_min = static_cast<float>(ray.t_min);
+  c.t_min = std::max(0.0f, t_min - std::abs(t_min) * 2 * u);
+  return true;
+}
+
+/// Lane i of the mask as bit i. Loads what was stored, no more, so that the store is forwarded.
+HWY_INLINE uint32_t bits_of(const hn::Mask<Floats>& mask) {
+  uint8_t bytes[8];
+  hn::StoreMaskBits(Floats(), mask, bytes);
+  if constexpr (hn::MaxLanes(Floats()) <= 8) return bytes[0];
+  uint16_t bits;
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
+}
+
+/// Which children's boxes the ray may meet before t_far, and where it enters them.
+struct SlabHits {
+  Lanes entry;
+  hn::Mask<Floats> is_hit;
+};
+
+/// t_far: the distance to stop at, times 1 + 8u.
+template <Slabs slabs>
+HWY_INLINE SlabHits hit_slabs(const float* HWY_RESTRICT node, const RayConstants& c, float t_far) {
+  const Floats d;
+  const auto plane = [&](uint32_t row, int axis, float sign) {
+    const auto position = hn::Load(d, node + row);
+    const auto inverse = hn::Set(d, c.inverse[axis]);
+    if constexpr (slabs == Slabs::fused) {
+      const float offset = (sign < 0 ? c.near_offset : c.far_offset)[axis];
+      return hn::MulAdd(position, inverse, hn::Set(d, offset));
+    } else {
+      const auto distance = hn::Sub(position, hn::Set(d, c.origin[axis]));
+      return hn::MulAdd(distance, inverse, hn::Set(d, sign * c.pad[axis]));
+    }
+  };
+  const auto near_plane = [&](int axis) { return plane(c.near_row[axis], axis, -1); };
+  const auto far_plane = [&](int axis) { return plane(c.far_row[axis], axis, 1); };
+  const auto near =
+      hn::Max(hn::Max(near_plane(0), near_plane(1)), hn::Max(near_plane(2), hn::Set(d, c.t_min)));
+  const auto far =
+      hn::Min(hn::Min(far_plane(0), far_plane(1)), hn::Min(far_plane(2), hn::Set(d, t_far)));
+  const auto widest = slabs == Slabs::fused ? far : hn::Mul(far, hn::Set(d, 1 + 8 * u));
+  return {near, hn::Le(near, widest)};
+}
+
+#endif
+}  // namespace HWY_NAMESPACE
+}  // namespace tracer
+HWY_AFTER_NAMESPACE();
+
+#endif
