@@ -40,7 +40,7 @@ std::vector<Ray> random_rays(const Mesh& mesh) {
 }
 
 void bench_build(benchmark::State& state, const Builder& builder, const Mesh& mesh) {
-  const std::vector<Box> boxes = primitive_boxes(mesh);
+  const auto boxes = primitive_boxes(mesh);
   for (auto _ : state) {
     Progress progress;
     benchmark::DoNotOptimize(builder.build(mesh_primitives(mesh, boxes), {}, progress));
@@ -74,7 +74,7 @@ void register_model(const std::string& name, const std::string& path) {
         ->UseRealTime()
         ->Unit(benchmark::kMillisecond);
     Progress progress;
-    const std::vector<Box> boxes = primitive_boxes(*mesh);
+    const auto boxes = primitive_boxes(*mesh);
     const Accel accel = make_accel(mesh, builder.build(mesh_primitives(*mesh, boxes), {}, progress),
                                    layouts().front(), progress);
     for (const auto& [kind, rays] :
