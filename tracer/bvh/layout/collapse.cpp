@@ -14,7 +14,7 @@ constexpr float node_cost = 1.0f;
 constexpr float block_cost = 1.0f;
 
 // Subtrees above this size are planned in parallel.
-constexpr uint32_t task_size = 16384;
+constexpr uint32_t largest_serial_count = 16384;
 
 double square(double x) {
   return x * x;
@@ -37,7 +37,7 @@ Collapse::Collapse(const BvhTree& tree, uint32_t width, const Progress& progress
       area_scale_(square(unit_scale(tree.nodes[0].bounds))),
       parts_(tree.nodes.size()) {
   Forest forest;
-  plan(0, 0, static_cast<uint32_t>(tree.primitives.size()), forest);
+  plan(0, {0, static_cast<uint32_t>(tree.primitives.size())}, forest);
   expected_steps_ = area(0) > 0 ? forest.costs[0] / area(0) : 0;
 }
 
@@ -62,27 +62,24 @@ void Collapse::add_children(uint32_t node, size_t child_count, Children& childre
   }
 }
 
-void Collapse::plan(uint32_t node, uint32_t first, uint32_t primitive_count, Forest& forest) {
+void Collapse::plan(uint32_t node, PrimitiveRange range, Forest& forest) {
   Part& part = parts_[node];
-  part.first = first;
-  part.primitive_count = primitive_count;
+  part.range = range;
   // What fits into one block becomes one: a split of it gains nothing and costs memory.
-  if (tree_.nodes[node].is_leaf() || primitive_count <= width_) {
+  if (tree_.nodes[node].is_leaf() || range.count() <= width_) {
     part.node_count = 0;
-    part.block_count = (primitive_count + width_ - 1) / width_;
+    part.block_count = (range.count() + width_ - 1) / width_;
     forest.most_children = 1;
     forest.costs[0] = area(node) * block_cost * static_cast<float>(part.block_count);
     forest.node_counts[0] = 0;
     return;
   }
   const uint32_t left = tree_.nodes[node].first;
-  const uint32_t left_count = first_primitive(left + 1) - first;
+  const uint32_t middle = first_primitive(left + 1);
   Forest left_forest, right_forest;
-  const auto plan_left = [&] { plan(left, first, left_count, left_forest); };
-  const auto plan_right = [&] {
-    plan(left + 1, first + left_count, primitive_count - left_count, right_forest);
-  };
-  if (primitive_count <= task_size) {
+  const auto plan_left = [&] { plan(left, {range.begin, middle}, left_forest); };
+  const auto plan_right = [&] { plan(left + 1, {middle, range.end}, right_forest); };
+  if (range.count() <= largest_serial_count) {
     plan_left();
     plan_right();
   } else {

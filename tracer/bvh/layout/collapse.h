@@ -8,6 +8,7 @@
 
 #include "tracer/base/progress.h"
 #include "tracer/base/scratch_array.h"
+#include "tracer/bvh/build/subdivide.h"
 #include "tracer/bvh/tree.h"
 
 namespace tracer {
@@ -20,11 +21,10 @@ class Collapse {
 
   /// A subtree of the binary tree as one child of a wide node. 32 bytes.
   struct Part {
-    uint32_t first;  // of its primitives in BvhTree::primitives, which are side by side
-    uint32_t primitive_count;
-    uint32_t node_count;  // of the wide tree, its root included; 0 for a leaf
+    PrimitiveRange range;  // of BvhTree::primitives
+    uint32_t node_count;   // of the wide tree, its root included; 0 for a leaf
     uint32_t block_count;
-    uint8_t child_count;  // of its root
+    uint8_t child_count;  // of its root; not set for a leaf, nor is the next
     // [k - 2]: of k children, how many the left child becomes; 0 where it is cheaper to stay one.
     std::array<uint8_t, max_width - 1> left_shares;
 
@@ -53,7 +53,7 @@ class Collapse {
  private:
   struct Forest;
 
-  void plan(uint32_t node, uint32_t first, uint32_t primitive_count, Forest& forest);
+  void plan(uint32_t node, PrimitiveRange range, Forest& forest);
   void join(const Forest& left, const Forest& right, float area, Part& part, Forest& forest) const;
   void add_children(uint32_t node, size_t child_count, Children& children) const;
   float area(uint32_t node) const;

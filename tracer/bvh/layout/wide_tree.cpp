@@ -31,7 +31,7 @@ FloatRows::FloatRows(size_t row_count, int width) : row_count_(row_count), width
 namespace {
 
 // Subtrees of more triangles are written in parallel.
-constexpr uint32_t task_size = 16384;
+constexpr uint32_t largest_serial_count = 16384;
 
 constexpr size_t core_cache_bytes = size_t{1} << 21;
 
@@ -81,14 +81,13 @@ class WideTreeWriter {
     const auto write_child = [&](size_t i) {
       const Part& part = collapse_.part(children.nodes[i]);
       if (part.is_leaf()) {
-        leaves_.write({part.first, part.first + part.primitive_count},
-                      tree_.nodes[children.nodes[i]].bounds, places[i].block);
+        leaves_.write(part.range, tree_.nodes[children.nodes[i]].bounds, places[i].block);
       } else {
         write_node(children.nodes[i], places[i]);
       }
     };
-    const uint32_t primitive_count = collapse_.part(node).primitive_count;
-    if (primitive_count > task_size) {
+    const uint32_t primitive_count = collapse_.part(node).range.count();
+    if (primitive_count > largest_serial_count) {
       parallel_for_each_index(0, children.count, write_child);
       progress_.throw_if_stopped();
     } else {
@@ -137,11 +136,11 @@ class WideTreeWriter {
     uint32_t written = 0;
     for (const uint32_t child : children) {
       const Part& part = collapse_.part(child);
-      written += part.is_leaf() ? part.primitive_count : 0;
+      written += part.is_leaf() ? part.range.count() : 0;
     }
     const uint32_t all = written_.fetch_add(written, std::memory_order_relaxed) + written;
     if (primitive_count > 1024) {
-      progress_.set_fraction(static_cast<double>(all) / collapse_.part(0).primitive_count);
+      progress_.set_fraction(static_cast<double>(all) / collapse_.part(0).range.count());
     }
   }
 
@@ -166,6 +165,7 @@ class WideTreeWriter {
 }  // namespace
 
 WideTree build_wide_tree(const BvhTree& tree, const Mesh& mesh, int width, Progress& progress) {
+  progress.throw_if_stopped();
   progress.start_stage("laying out the tree");
   return WideTreeWriter(tree, mesh, width, progress).run();
 }
