@@ -21,7 +21,7 @@ BuiltAccel build_accel(const std::shared_ptr<const tracer::Mesh>& mesh, const Tr
   std::optional<tracer::BvhTree> tree;
   if (key.builder != nullptr) {
     progress.start_stage("building the tree");
-    const std::vector<tracer::Box> boxes = primitive_boxes(*mesh);
+    const auto boxes = primitive_boxes(*mesh);
     tree = key.builder->build(mesh_primitives(*mesh, boxes), key.settings, progress);
     if (key.improvement_rounds > 0) progress.start_stage("improving the tree");
     for (int round = 0; round < key.improvement_rounds; ++round) {

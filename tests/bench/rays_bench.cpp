@@ -42,7 +42,7 @@ std::vector<Ray> random_rays(const Mesh& mesh) {
 }
 
 void bench_build(benchmark::State& state, const Builder& builder, const Mesh& mesh) {
-  const std::vector<Box> boxes = primitive_boxes(mesh);
+  const auto boxes = primitive_boxes(mesh);
   for (auto _ : state) {
     Progress progress;
     benchmark::DoNotOptimize(builder.build(mesh_primitives(mesh, boxes), {}, progress));
@@ -77,7 +77,7 @@ void register_model(const std::string& name, const std::string& path) {
         ->UseRealTime()
         ->Unit(benchmark::kMillisecond);
     Progress progress;
-    const std::vector<Box> boxes = primitive_boxes(*mesh);
+    const auto boxes = primitive_boxes(*mesh);
     BvhTree tree = builder.build(mesh_primitives(*mesh, boxes), {}, progress);
     const double sah_cost = measure(tree).sah_cost;
     const Accel accel = make_accel(mesh, std::move(tree), layouts().front(), progress);

@@ -77,7 +77,7 @@ void expect_trees_to_answer_as_brute_force(const Mesh& mesh, const std::vector<R
     hit_count += answer.is_occluded;
   }
   EXPECT_GT(hit_count, static_cast<int>(rays.size() / 20));
-  const std::vector<Box> boxes = primitive_boxes(mesh);
+  const auto boxes = primitive_boxes(mesh);
   for (const Builder& builder : builders()) {
     for (const int max_depth : {1, 5, 30, 64}) {
       for (const int leaf_size : {1, 4, 64}) {

@@ -13,7 +13,7 @@
 namespace tracer {
 namespace {
 
-BvhTree build(const Builder& builder, const std::vector<Box>& boxes,
+BvhTree build(const Builder& builder, const LargeVector<Box>& boxes,
               const BuildSettings& settings) {
   Progress progress;
   return builder.build(boxes, settings, progress);
@@ -23,10 +23,10 @@ Box box_at(const Vec3f& center, float half_size) {
   return {center - half_size, center + half_size};
 }
 
-std::vector<Box> clustered_boxes(uint32_t count) {
+LargeVector<Box> clustered_boxes(uint32_t count) {
   // Each cluster a thousandth of the one before: the middle of the box parts few of them.
   RandomSource random(1);
-  std::vector<Box> boxes;
+  LargeVector<Box> boxes;
   for (uint32_t i = 0; i < count; ++i) {
     const float scale = std::exp2(-10.0f * static_cast<float>(i % 10));
     boxes.push_back(box_at(scale * random.vector(0, 1), 0.01f * scale));
@@ -34,9 +34,9 @@ std::vector<Box> clustered_boxes(uint32_t count) {
   return boxes;
 }
 
-std::vector<std::pair<std::string, std::vector<Box>>> box_sets() {
+std::vector<std::pair<std::string, LargeVector<Box>>> box_sets() {
   RandomSource random(2);
-  std::vector<Box> concentric, huge, line, tiny, wide;
+  LargeVector<Box> concentric, huge, line, tiny, wide;
   for (int i = 0; i < 300; ++i) {
     tiny.push_back(box_at(1e-38f * random.vector(-1, 1), 1e-42f));
     const Vec3f center = random.vector(-1, 1) * Vec3f(3.4e38f, 1, 1e-30f);
@@ -51,7 +51,7 @@ std::vector<std::pair<std::string, std::vector<Box>>> box_sets() {
       {"two", {box_at(Vec3f(1), 1), box_at(Vec3f(-1), 1)}},
       {"soup", primitive_boxes(random_soup(5000, 0.05f, 3))},
       {"many", primitive_boxes(random_soup(40000, 0.01f, 4))},
-      {"identical", std::vector<Box>(1000, box_at(Vec3f(2), 1))},
+      {"identical", LargeVector<Box>(1000, box_at(Vec3f(2), 1))},
       {"concentric", concentric},
       {"huge", huge},
       {"line of points", line},
@@ -90,7 +90,7 @@ TEST(Builders, leaves_are_small_where_the_depth_allows) {
 }
 
 TEST(Builders, nodes_of_leaf_size_are_not_split) {
-  const std::vector<Box> boxes = primitive_boxes(random_soup(64, 0.05f, 3));
+  const auto boxes = primitive_boxes(random_soup(64, 0.05f, 3));
   for (const Builder& builder : builders()) {
     EXPECT_EQ(build(builder, boxes, {30, 64}).nodes.size(), 1u);
     EXPECT_EQ(build(builder, boxes, {30, 63}).nodes.size(), 3u);
@@ -98,7 +98,7 @@ TEST(Builders, nodes_of_leaf_size_are_not_split) {
 }
 
 TEST(Builders, a_million_identical_boxes_are_halved_without_wasting_depth) {
-  const std::vector<Box> boxes(1 << 20, box_at(Vec3f(2), 1));
+  const LargeVector<Box> boxes(1 << 20, box_at(Vec3f(2), 1));
   for (const Builder& builder : builders()) {
     const BvhTree tree = build(builder, boxes, {64, 4});
     EXPECT_EQ(measure(tree).depth, 18) << builder.name;
@@ -107,7 +107,7 @@ TEST(Builders, a_million_identical_boxes_are_halved_without_wasting_depth) {
 }
 
 TEST(Builders, all_but_the_median_reach_the_leaf_size_whenever_the_depth_could) {
-  const std::vector<Box> boxes = clustered_boxes(3072);
+  const LargeVector<Box> boxes = clustered_boxes(3072);
   for (const Builder& builder : builders()) {
     const uint32_t largest_leaf = measure(build(builder, boxes, {10, 3})).largest_leaf;
     if (builder.name == "median") {
@@ -119,14 +119,14 @@ TEST(Builders, all_but_the_median_reach_the_leaf_size_whenever_the_depth_could) 
 }
 
 TEST(Builders, sweep_sah_costs_less_than_the_median) {
-  const std::vector<Box> boxes = primitive_boxes(rough_ball(40, 0.02f, 1));
+  const auto boxes = primitive_boxes(rough_ball(40, 0.02f, 1));
   EXPECT_LT(measure(build(*find_builder("sweep-sah"), boxes, {})).sah_cost,
             measure(build(*find_builder("median"), boxes, {})).sah_cost);
 }
 
 TEST(Builders, median_halves_across_the_longest_side) {
   // Centres at 1, 2, 3 and 9 along y; the middle of the box lies at 5.
-  std::vector<Box> boxes;
+  LargeVector<Box> boxes;
   for (const float y : {3.0f, 9.0f, 1.0f, 2.0f}) boxes.push_back(box_at({0, y, 0}, 1));
   const BvhTree tree = build(*find_builder("median"), boxes, {1, 1});
   ASSERT_EQ(tree.nodes.size(), 3u);
@@ -137,20 +137,20 @@ TEST(Builders, median_halves_across_the_longest_side) {
 
 TEST(Builders, median_splits_centres_that_all_lie_on_one_side_of_the_box) {
   // One large box whose centre is left of the middle, as are all others.
-  std::vector<Box> boxes{{Vec3f(-100, -1, -1), Vec3f(60, 1, 1)}};
+  LargeVector<Box> boxes{{Vec3f(-100, -1, -1), Vec3f(60, 1, 1)}};
   for (const float x : {-99.0f, -98.0f, -97.0f}) boxes.push_back(box_at({x, 0, 0}, 0.1f));
   boxes.push_back(box_at({-30, 0, 0}, 90));
   const BvhTree tree = build(*find_builder("median"), boxes, {30, 1});
   EXPECT_EQ(validate(tree, boxes, 4), "");
 }
 
-double sah_cost(const char* builder, const std::vector<Box>& boxes,
+double sah_cost(const char* builder, const LargeVector<Box>& boxes,
                 const BuildSettings& settings = {}) {
   return measure(build(*find_builder(builder), boxes, settings)).sah_cost;
 }
 
 void expect_binned_near_sweep(const Mesh& mesh) {
-  const std::vector<Box> boxes = primitive_boxes(mesh);
+  const auto boxes = primitive_boxes(mesh);
   EXPECT_LE(sah_cost("binned-sah", boxes), 1.02 * sah_cost("sweep-sah", boxes))
       << boxes.size() << " triangles";
 }
@@ -171,14 +171,14 @@ TEST(Builders, binned_sah_costs_at_most_two_percent_more_than_the_sweep_on_model
 
 TEST(Builders, morton_costs_no_more_than_a_third_above_the_sweep) {
   for (const Mesh& mesh : {rough_ball(60, 0.02f, 1), random_soup(50000, 0.01f, 3)}) {
-    const std::vector<Box> boxes = primitive_boxes(mesh);
+    const auto boxes = primitive_boxes(mesh);
     EXPECT_LE(sah_cost("morton", boxes), 4.0 / 3 * sah_cost("sweep-sah", boxes));
   }
 }
 
 TEST(Builders, morton_parts_what_lies_in_one_cell_of_its_curve) {
   // All but one box in a billionth of the bounds.
-  std::vector<Box> boxes = primitive_boxes(random_soup(5000, 0.01f, 3));
+  auto boxes = primitive_boxes(random_soup(5000, 0.01f, 3));
   for (Box& box : boxes) box = {0x1p-30f * box.min, 0x1p-30f * box.max};
   const double alone = sah_cost("morton", boxes);
   boxes.push_back(box_at(Vec3f(1), 0.5f));
@@ -192,18 +192,18 @@ TEST(Builders, morton_parts_what_lies_in_one_cell_of_its_curve) {
 
 TEST(Builders, binned_sah_of_few_primitives_is_the_full_sweep) {
   for (uint32_t count = 1; count <= 32; ++count) {
-    const std::vector<Box> boxes = primitive_boxes(random_soup(count, 0.5f, count));
+    const auto boxes = primitive_boxes(random_soup(count, 0.5f, count));
     const double sweep = sah_cost("sweep-sah", boxes, {30, 1});
     EXPECT_NEAR(sah_cost("binned-sah", boxes, {30, 1}), sweep, 1e-6 * sweep) << count;
   }
 }
 
 TEST(Builders, binned_sah_splits_alike_at_every_scale) {
-  const std::vector<Box> boxes = primitive_boxes(random_soup(3000, 0.05f, 7));
+  const auto boxes = primitive_boxes(random_soup(3000, 0.05f, 7));
   const Builder& builder = *find_builder("binned-sah");
   const BvhTree reference = build(builder, boxes, {});
   for (const float scale : {0x1p-80f, 0x1p-40f, 0x1p60f, 0x1p125f}) {
-    std::vector<Box> scaled_boxes = boxes;
+    LargeVector<Box> scaled_boxes = boxes;
     for (Box& box : scaled_boxes) box = {scale * box.min, scale * box.max};
     EXPECT_EQ(build(builder, scaled_boxes, {}).primitives, reference.primitives) << scale;
   }
@@ -216,7 +216,7 @@ uint64_t blocks_of_four(const BvhTree& tree) {
 }
 
 TEST(Builders, sah_builders_fill_blocks_when_told_their_size) {
-  const std::vector<Box> boxes = primitive_boxes(rough_ball(40, 0.02f, 1));
+  const auto boxes = primitive_boxes(rough_ball(40, 0.02f, 1));
   for (const char* name : {"binned-sah", "sweep-sah"}) {
     const Builder& builder = *find_builder(name);
     EXPECT_LT(blocks_of_four(build(builder, boxes, {.leaf_size = 8, .block_size = 4})),
@@ -226,7 +226,7 @@ TEST(Builders, sah_builders_fill_blocks_when_told_their_size) {
 }
 
 TEST(Builders, binned_sah_takes_any_number_of_bins) {
-  const std::vector<Box> boxes = primitive_boxes(random_soup(3000, 0.05f, 7));
+  const auto boxes = primitive_boxes(random_soup(3000, 0.05f, 7));
   for (const int bins : {-1, 0, 1, 2, 3, 63, 64, 65, 1 << 30}) {
     EXPECT_EQ(validate(build(*find_builder("binned-sah"), boxes, {.bins = bins}), boxes, 30), "")
         << bins;
@@ -239,7 +239,7 @@ bool are_same(const BvhTree& a, const BvhTree& b) {
 }
 
 TEST(Builders, trees_have_the_same_bits_at_any_number_of_threads) {
-  const std::vector<Box> boxes = primitive_boxes(random_soup(100000, 0.01f, 6));
+  const auto boxes = primitive_boxes(random_soup(100000, 0.01f, 6));
   for (const Builder& builder : builders()) {
     const auto build_with = [&](int thread_count) {
       return with_thread_count(thread_count, [&] { return build(builder, boxes, {}); });
@@ -251,7 +251,7 @@ TEST(Builders, trees_have_the_same_bits_at_any_number_of_threads) {
 }
 
 TEST(Builders, a_build_asked_to_stop_throws_cancelled) {
-  const std::vector<Box> boxes = primitive_boxes(random_soup(100000, 0.01f, 6));
+  const auto boxes = primitive_boxes(random_soup(100000, 0.01f, 6));
   for (const Builder& builder : builders()) {
     Progress progress;
     progress.request_stop();
@@ -260,7 +260,7 @@ TEST(Builders, a_build_asked_to_stop_throws_cancelled) {
 }
 
 TEST(Builders, a_build_in_flight_stops_soon_after_it_is_asked) {
-  const std::vector<Box> boxes = primitive_boxes(random_soup(1000000, 0.01f, 6));
+  const auto boxes = primitive_boxes(random_soup(1000000, 0.01f, 6));
   for (const Builder& builder : builders()) {
     Progress progress;
     std::thread watcher([&] {
@@ -274,7 +274,7 @@ TEST(Builders, a_build_in_flight_stops_soon_after_it_is_asked) {
 }
 
 TEST(Builders, progress_ends_at_one) {
-  const std::vector<Box> boxes = primitive_boxes(random_soup(30000, 0.01f, 6));
+  const auto boxes = primitive_boxes(random_soup(30000, 0.01f, 6));
   for (const Builder& builder : builders()) {
     for (const int max_depth : {1, 30}) {
       Progress progress;

@@ -15,7 +15,7 @@ namespace tracer {
 namespace {
 
 BvhTree build(const char* builder, const Mesh& mesh, const BuildSettings& settings = {}) {
-  const std::vector<Box> boxes = primitive_boxes(mesh);
+  const auto boxes = primitive_boxes(mesh);
   Progress progress;
   return find_builder(builder)->build(mesh_primitives(mesh, boxes), settings, progress);
 }
@@ -27,7 +27,7 @@ BvhTree reinserted(BvhTree tree, int round_count, const BuildSettings& settings 
 }
 
 std::string fault_of(const BvhTree& tree, const Mesh& mesh, int max_depth) {
-  const std::vector<Box> boxes = primitive_boxes(mesh);
+  const auto boxes = primitive_boxes(mesh);
   return validate(tree, mesh_primitives(mesh, boxes), max_depth);
 }
 

@@ -30,13 +30,13 @@ Mesh needles(uint32_t count, uint32_t seed) {
 }
 
 BvhTree build(const Mesh& mesh, const BuildSettings& settings = {}) {
-  const std::vector<Box> boxes = primitive_boxes(mesh);
+  const auto boxes = primitive_boxes(mesh);
   Progress progress;
   return find_builder("spatial-split")->build(mesh_primitives(mesh, boxes), settings, progress);
 }
 
 std::string fault_of(const BvhTree& tree, const Mesh& mesh, int max_depth) {
-  const std::vector<Box> boxes = primitive_boxes(mesh);
+  const auto boxes = primitive_boxes(mesh);
   return validate(tree, mesh_primitives(mesh, boxes), max_depth);
 }
 
@@ -158,7 +158,7 @@ TEST(SpatialSplit, validation_finds_a_gap_in_a_cut_triangle) {
 
 TEST(SpatialSplit, a_build_in_flight_stops_soon_after_it_is_asked) {
   const Mesh mesh = needles(200000, 7);
-  const std::vector<Box> boxes = primitive_boxes(mesh);
+  const auto boxes = primitive_boxes(mesh);
   Progress progress;
   std::thread watcher([&] {
     while (progress.fraction() < 0.2f) std::this_thread::yield();

@@ -76,6 +76,12 @@ TEST(Validate, finds_children_and_primitives_out_of_range) {
   EXPECT_NE(fault_of(tree), "");
 }
 
+TEST(Validate, finds_primitives_out_of_the_order_of_the_leaves) {
+  BvhTree tree = tree_of_four();
+  std::swap(tree.nodes[1], tree.nodes[2]);
+  EXPECT_NE(fault_of(tree), "");
+}
+
 TEST(Validate, finds_leaves_that_are_too_deep) {
   EXPECT_EQ(fault_of(tree_of_four(), 2), "");
   EXPECT_NE(fault_of(tree_of_four(), 1), "");

@@ -52,7 +52,7 @@ Ray aimed_ray(const Mesh& mesh, RandomSource& random) {
 
 void expect_the_bits_of_the_reference(Mesh mesh_value, const BuildSettings& settings = {}) {
   const auto mesh = std::make_shared<const Mesh>(std::move(mesh_value));
-  const std::vector<Box> boxes = primitive_boxes(*mesh);
+  const auto boxes = primitive_boxes(*mesh);
   const StopFlag stop;
   int sets = 0;
   for (const Builder& builder : builders()) {

@@ -25,7 +25,8 @@ struct Primitives {
 
   Primitives() = default;
   Primitives(std::span<const Box> all_boxes) : boxes(all_boxes) {}
-  Primitives(const std::vector<Box>& all_boxes) : boxes(all_boxes) {}
+  template <class Allocator>
+  Primitives(const std::vector<Box, Allocator>& all_boxes) : boxes(all_boxes) {}
 };
 
 /// The triangles of a mesh, which can be cut; `boxes` are primitive_boxes(mesh). Both must outlive

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace tracer {
 namespace {
@@ -64,6 +65,9 @@ class Validation {
     Box bounds;
     if (uint64_t{node.first} + node.count > tree_.primitives.size()) {
       return fail("a leaf reaches beyond the primitives");
+    }
+    if (node.first != std::exchange(leaf_begin_, node.first + node.count)) {
+      return fail("a leaf's primitives do not follow those of the leaf before it");
     }
     for (uint32_t i = node.first; i < node.first + node.count; ++i) {
       const uint32_t primitive = tree_.primitives[i];
@@ -131,6 +135,7 @@ class Validation {
   const int max_depth_;
   std::vector<bool> node_reached_;
   std::vector<std::vector<const BvhNode*>> leaves_of_;  // by primitive
+  uint32_t leaf_begin_ = 0;                             // of the next leaf's primitives
   std::string fault_;
 };
 

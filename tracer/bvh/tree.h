@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tracer/base/large_vector.h"
 #include "tracer/bvh/primitives.h"
 #include "tracer/geometry/box.h"
 
@@ -23,10 +24,11 @@ struct BvhNode {
 static_assert(sizeof(BvhNode) == 32);
 
 /// A binary tree over primitives. nodes[0] is the root; no primitives, no nodes. Children come
-/// after their parent, in pairs, and the primitives below a node are side by side. A primitive that
-/// was cut is in several leaves: the part of it in each leaf's bounds belongs there.
+/// after their parent, in pairs, and the primitives below a node are side by side, those of the
+/// left child first. A primitive that was cut is in several leaves: the part of it in each leaf's
+/// bounds belongs there.
 struct BvhTree {
-  std::vector<BvhNode> nodes;
+  LargeVector<BvhNode> nodes;
   std::vector<uint32_t> primitives;
 
   size_t bytes() const {
@@ -35,9 +37,10 @@ struct BvhTree {
 };
 
 /// Empty when every invariant of the tree over `primitives` holds, else the first that does not, in
-/// words: every primitive in a leaf, bounds those of what is below bit for bit, no node reached
-/// twice, no leaf deeper than `max_depth` (the root has depth 0). Where primitives can be cut, a
-/// leaf's bounds may hold parts of them, and all leaves together must cover each primitive.
+/// words: every primitive in a leaf, in the order of the leaves, bounds those of what is below bit
+/// for bit, no node reached twice, no leaf deeper than `max_depth` (the root has depth 0). Where
+/// primitives can be cut, a leaf's bounds may hold parts of them, and all leaves together must
+/// cover each primitive.
 std::string validate(const BvhTree& tree, const Primitives& primitives, int max_depth);
 
 }  // namespace tracer

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 #include "tracer/geometry/box.h"
 
@@ -10,6 +11,14 @@ namespace tracer {
 
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = int32_t __attribute__((vector_size(16)));
+
+/// Lane w is 0.
+inline Float4 lanes_of(const Vec3f& vector) {
+  using Float2 = float __attribute__((vector_size(8)));
+  Float2 xy;
+  std::memcpy(&xy, &vector.x, sizeof xy);
+  return Float4{xy[0], xy[1], vector.z, 0};
+}
 
 inline Float4 min_of(Float4 a, Float4 b) {
   return a < b ? a : b;
@@ -26,6 +35,7 @@ struct Box4 {
 
   Box4() = default;
   Box4(Float4 low, Float4 high) : min(low), max(high) {}
+  explicit Box4(Float4 point) : min(point), max(point) {}
   explicit Box4(const Box& box)
       : min{box.min.x, box.min.y, box.min.z, 0}, max{box.max.x, box.max.y, box.max.z, 0} {}
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tracer/base/large_vector.h"
 #include "tracer/base/vectors.h"
 #include "tracer/geometry/box.h"
 
@@ -35,6 +36,6 @@ struct Mesh {
 };
 
 /// Boxes of all triangles, in order: all that a builder needs to know.
-std::vector<Box> primitive_boxes(const Mesh& mesh);
+LargeVector<Box> primitive_boxes(const Mesh& mesh);
 
 }  // namespace tracer

@@ -148,7 +148,7 @@ class Round {
   }
 
   const BvhTree& tree_;
-  std::vector<BvhNode> nodes_;
+  LargeVector<BvhNode> nodes_;
   std::vector<uint32_t> parents_;
   std::vector<int> heights_;      // of what is below each node, at least
   std::vector<uint8_t> touched_;  // in this round

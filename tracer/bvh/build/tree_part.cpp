@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "tracer/base/huge_pages.h"
 #include "tracer/base/parallel.h"
 
 namespace tracer {
@@ -13,8 +12,6 @@ class Join {
  public:
   BvhTree run(const TreePart& root) {
     place(root, 0);
-    tree_.nodes.reserve(node_count_);
-    prefer_huge_pages(tree_.nodes.data(), node_count_ * sizeof(BvhNode));
     tree_.nodes.resize(node_count_);
     tree_.primitives.resize(primitive_count_);
     for (const Placed& placed : inner_) tree_.nodes[placed.slot] = inner_node(placed);

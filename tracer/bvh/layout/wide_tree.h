@@ -61,7 +61,7 @@ struct WideTree {
   FloatRows blocks;
   std::vector<BlockInfo> block_infos;
   float max_coordinate = 0;           // of all boxes, absolute
-  float typical_extent = 0;           // median of block_infos' extents
+  float typical_extent = 0;           // median of block_infos' extents, of 1024 at most
   float expected_steps = 0;           // nodes and blocks that a random line through the root meets
   bool is_larger_than_cache = false;  // a core's own
 

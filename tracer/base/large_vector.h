@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "tracer/base/huge_pages.h"
+
+namespace tracer {
+
+/// Huge pages where there are such, and elements that are not written until someone does.
+template <class T>
+requires std::is_trivially_copyable_v<T>
+struct LargeAllocator : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = LargeAllocator<U>;
+  };
+
+  T* allocate(size_t count) {
+    T* const elements = std::allocator<T>::allocate(count);
+    prefer_huge_pages(elements, count * sizeof(T));
+    return elements;
+  }
+
+  template <class U, class... Arguments>
+  void construct(U* element, Arguments&&... arguments) {
+    if constexpr (sizeof...(Arguments) > 0) {
+      std::construct_at(element, std::forward<Arguments>(arguments)...);
+    }
+  }
+};
+
+/// A vector of many elements that threads fill: resize() leaves new ones uninitialised.
+template <class T>
+using LargeVector = std::vector<T, LargeAllocator<T>>;
+
+}  // namespace tracer
