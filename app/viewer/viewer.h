@@ -32,10 +32,10 @@ class Viewer {
 
  private:
   // The loop: what is due, and when. viewer.cpp
-  double seconds_to_frame() const;
+  double due_seconds() const;
   void wait();
   void watch_files();
-  void draw_frame();
+  void draw_frame(double due_seconds);
   bool has_finished_picture() const;
   bool is_run_over() const;
 
@@ -59,7 +59,7 @@ class Viewer {
 
   // What the user sees. viewer_draw.cpp
   void lay_out();
-  void draw_picture();
+  void draw_background();
   void draw_panel(const Ui& ui);
   void draw_header(const Ui& ui);
   void draw_overlays(const Ui& ui);
@@ -101,6 +101,7 @@ class Viewer {
   int frames_due_ = 0;  // after input, until hovering and layout have settled
   int frames_drawn_ = 0;
   double last_frame_seconds_ = -1;
+  double draw_seconds_ = 0;   // that the last frame took once edits were answered
   bool is_captured_ = false;  // the picture of a run of options_.frames
 
   Session session_;  // last: its threads end before what they wake

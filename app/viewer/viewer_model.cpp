@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Viewer: models, tiles and news from the session, edits to it.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <system_error>
@@ -117,12 +118,13 @@ void Viewer::send_edits() {
 // Edits are sent, and what answers them soon is awaited, so that this frame shows it: a frame is
 // rather a little late than the picture a frame behind the mouse.
 void Viewer::answer_edits() {
-  constexpr double patience_seconds = 1.0 / 120;
+  constexpr double frame_seconds = 1.0 / 60;
   constexpr auto pause = std::chrono::microseconds(300);
   const bool was_answered = status_.is_answered && !is_job_running();
   send_edits();
   if (!was_answered) return;
-  const double end_seconds = glfwGetTime() + patience_seconds;
+  const double end_seconds = std::max(last_frame_seconds_ + frame_seconds - draw_seconds_,
+                                      glfwGetTime() + frame_seconds / 2);
   for (take_update(); !status_.is_answered && glfwGetTime() < end_seconds; take_update()) {
     std::this_thread::sleep_for(pause);
   }
