@@ -45,6 +45,7 @@ class Viewer {
   void adopt_model();
   std::optional<tracer::View> find_view();
   void open(const std::filesystem::path& path);
+  void hold_back_build();
   void send_edits();
   void answer_edits();
 
@@ -80,6 +81,8 @@ class Viewer {
   OpenDialog open_dialog_;
 
   ViewerSettings settings_;
+  tracer::BuildSettings sent_build_;  // what the session was last asked for
+  bool was_build_dragged_ = false;    // when it was
   Viewpoint viewpoint_;
   PictureArea area_;
   bool is_panel_shown_ = true;

@@ -96,7 +96,17 @@ void Viewer::adopt_model() {
   report_warnings(model);
 }
 
+// While a hand drags on, the tree under way is finished and shown before the next is begun; were it
+// given up for each new value, a large model would show none until the hand rests.
+void Viewer::hold_back_build() {
+  const bool is_dragged = settings_.is_build_dragged;
+  if (is_dragged && was_build_dragged_ && status_.is_building) return;
+  sent_build_ = settings_.build;
+  was_build_dragged_ = is_dragged;
+}
+
 void Viewer::send_edits() {
+  hold_back_build();
   viewpoint_.set_up(settings_.up, aspect());
   picture_.set_exposure(settings_.render.exposure);
   const uint32_t triangle_count = status_.model ? status_.model->scene.mesh->triangle_count() : 0;
@@ -110,7 +120,7 @@ void Viewer::send_edits() {
                 .render = settings_.render,
                 .builder = settings_.builder_for(triangle_count),
                 .layout = settings_.layout,
-                .build = settings_.build,
+                .build = sent_build_,
                 .improve = settings_.improves_tree,
                 .sample_limit = settings_.sample_limit});
 }
