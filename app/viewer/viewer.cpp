@@ -133,6 +133,7 @@ void Viewer::draw_frame(double due_seconds) {
   take_update();
   const bool is_last = options_.frames > 0 && has_finished_picture();
   handle_input(input);
+  lay_out();  // a key may have hidden the panel
   const Ui ui{layout_, gui_.fonts(), gui_.scale()};
   draw_panel(ui);
   const double answered_seconds = glfwGetTime();

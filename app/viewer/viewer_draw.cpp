@@ -34,7 +34,8 @@ void Viewer::lay_out() {
 
 void Viewer::draw_background() {
   const tracer::Vec2d max = area_.min + area_.size;
-  if (is_panel_shown_) gui_.fill({max.x, 0}, tracer::Vec2d(window_.size()), palette::panel);
+  const tracer::Vec2d corner(window_.size());
+  if (max.x < corner.x) gui_.fill({max.x, 0}, corner, palette::panel);
   if (adopted_generation_ == 0 || picture_.is_empty()) {
     gui_.fill(area_.min, max, palette::backdrop);
     return;
