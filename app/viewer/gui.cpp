@@ -64,12 +64,24 @@ void Gui::begin_frame(std::span<const InputEvent> input) {
   ImGui::NewFrame();
 }
 
+tracer::Tile Gui::framebuffer_tile(const tracer::Vec2d& min, const tracer::Vec2d& max) const {
+  const tracer::Vec2i first(round(min * pixel_ratio_));
+  const tracer::Vec2i end(round(max * pixel_ratio_));
+  return {first.x, first.y, end.x, end.y};
+}
+
+// A scissored clear: many times as fast as a rectangle where OpenGL runs on the processor.
+void Gui::fill(const tracer::Vec2d& min, const tracer::Vec2d& max, const ImVec4& color) {
+  const tracer::Tile tile = framebuffer_tile(min, max);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(tile.x0, window_.framebuffer_px().y - tile.y1, tile.width(), tile.height());
+  glClearColor(color.x, color.y, color.z, color.w);
+  glClear(GL_COLOR_BUFFER_BIT);
+  glDisable(GL_SCISSOR_TEST);
+}
+
 void Gui::render() {
   ImGui::Render();
-  const tracer::Vec2i framebuffer_px = window_.framebuffer_px();
-  glViewport(0, 0, framebuffer_px.x, framebuffer_px.y);
-  glClearColor(palette::backdrop.x, palette::backdrop.y, palette::backdrop.z, 1);
-  glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 

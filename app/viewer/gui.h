@@ -6,6 +6,7 @@
 
 #include "app/viewer/style.h"
 #include "app/viewer/window.h"
+#include "tracer/render/film.h"
 
 namespace app {
 
@@ -22,7 +23,9 @@ class Gui {
   /// end of `input`: Dear ImGui 1.86 looks at where it is now, and would lose a click in a slow
   /// frame.
   void begin_frame(std::span<const InputEvent> input);
-  /// Draws the frame over a cleared framebuffer; the caller swaps.
+  /// Fills a rectangle of the framebuffer, in window coordinates, beneath all widgets.
+  void fill(const tracer::Vec2d& min, const tracer::Vec2d& max, const ImVec4& color);
+  /// Draws the frame over what the framebuffer holds; the caller swaps.
   void render();
 
   const Fonts& fonts() const { return fonts_; }
@@ -30,6 +33,8 @@ class Gui {
   float scale() const { return static_cast<float>(ui_scale_); }
   /// Framebuffer pixels a window coordinate.
   double pixel_ratio() const { return pixel_ratio_; }
+  /// Framebuffer pixels of a rectangle in window coordinates, both from the upper left corner.
+  tracer::Tile framebuffer_tile(const tracer::Vec2d& min, const tracer::Vec2d& max) const;
 
  private:
   void follow_scale();

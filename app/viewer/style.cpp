@@ -34,7 +34,7 @@ void set_colors(ImVec4* colors) {
   const ImVec4 none(0, 0, 0, 0);
   colors[ImGuiCol_Text] = palette::text;
   colors[ImGuiCol_TextDisabled] = palette::dim;
-  colors[ImGuiCol_WindowBg] = ImVec4(0.118f, 0.122f, 0.128f, 1);
+  colors[ImGuiCol_WindowBg] = palette::panel;
   colors[ImGuiCol_PopupBg] = ImVec4(0.14f, 0.145f, 0.152f, 0.99f);
   colors[ImGuiCol_Border] = ImVec4(1, 1, 1, 0.08f);
   colors[ImGuiCol_FrameBg] = field;

@@ -13,6 +13,7 @@ inline const ImVec4 accent{0.45f, 0.73f, 0.51f, 1.00f};
 inline const ImVec4 warning{0.93f, 0.72f, 0.36f, 1.00f};
 inline const ImVec4 error{0.95f, 0.46f, 0.41f, 1.00f};
 inline const ImVec4 backdrop{0.085f, 0.088f, 0.092f, 1.00f};  // where no picture is
+inline const ImVec4 panel{0.118f, 0.122f, 0.128f, 1.00f};
 }  // namespace palette
 
 /// The fonts of the current style; regular is the default.

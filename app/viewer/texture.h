@@ -8,8 +8,8 @@
 
 namespace app {
 
-/// An OpenGL texture of 8-bit pixels, shown pixel for pixel. Lives in the context that is current
-/// when it is made.
+/// An OpenGL texture of 8-bit pixels that is copied to the screen. Lives in the context that is
+/// current when it is made.
 class Texture {
  public:
   Texture();
@@ -22,10 +22,13 @@ class Texture {
   void upload(std::span<const tracer::Rgba8> picture, tracer::Vec2i size_px,
               const tracer::Tile& area);
 
-  unsigned name() const { return name_; }
+  /// Copies the picture to `tile` of the window's framebuffer, whose rows from the top
+  /// `framebuffer_height_px` counts; stretched where sizes differ. Not before an upload.
+  void show(const tracer::Tile& tile, int framebuffer_height_px) const;
 
  private:
   unsigned name_ = 0;
+  unsigned framebuffer_ = 0;  // that the texture is read through
   tracer::Vec2i size_px_{0, 0};
 };
 

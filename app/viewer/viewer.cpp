@@ -61,14 +61,14 @@ int Viewer::run() {
       open(path);
     }
     watch_files();
-    if (seconds_to_frame() <= 0) draw_frame();
+    if (const double due = due_seconds(); due <= glfwGetTime()) draw_frame(due);
   }
   window_.hide();
   const bool is_failed = adopted_generation_ == 0 && reported_error_generation_ > 0;
   return options_.model && is_failed ? 2 : 0;
 }
 
-double Viewer::seconds_to_frame() const {
+double Viewer::due_seconds() const {
   double due = std::numeric_limits<double>::infinity();
   const auto due_after = [&](double interval) {
     due = std::min(due, last_frame_seconds_ + interval);
@@ -77,16 +77,18 @@ double Viewer::seconds_to_frame() const {
   if (frames_due_ > 0) {
     due_after(status_.is_rendering && !has_input ? tracing_interval : input_interval);
   }
-  if (has_news_ || screenshots_.is_busy()) due_after(tracing_interval);
+  // The news may be that the job is done, which somebody waits for.
+  if (has_news_) due_after(is_job_running() ? input_interval : tracing_interval);
+  if (screenshots_.is_busy()) due_after(tracing_interval);
   if (is_job_running()) due_after(job_interval);
   if (!toast_.empty()) due = std::min(due, toast_end_seconds_);
   if (window_.framebuffer_px().x == 0)
     due = std::max(due, last_frame_seconds_ + minimised_interval);
-  return due - glfwGetTime();
+  return due;
 }
 
 void Viewer::wait() {
-  const double frame_wait = seconds_to_frame();
+  const double frame_wait = due_seconds() - glfwGetTime();
   const bool has_file = !requested_path_.empty();
   const double timeout = has_file ? std::min(frame_wait, watch_interval) : frame_wait;
   if (timeout <= 0) {
@@ -114,8 +116,11 @@ bool Viewer::is_run_over() const {
   return is_captured_ || (is_failed && frames_drawn_ >= frames_to_settle);
 }
 
-void Viewer::draw_frame() {
-  last_frame_seconds_ = glfwGetTime();
+void Viewer::draw_frame(double due_seconds) {
+  // A frame that is a little late counts as on time: else sixty a second were fifty-nine.
+  constexpr double tolerated_seconds = 0.002;
+  const double now = glfwGetTime();
+  last_frame_seconds_ = now - due_seconds < tolerated_seconds ? due_seconds : now;
   frames_due_ = std::max(frames_due_ - 1, 0);
   if (window_.framebuffer_px().x == 0) {
     take_update();
@@ -128,11 +133,13 @@ void Viewer::draw_frame() {
   take_update();
   const bool is_last = options_.frames > 0 && has_finished_picture();
   handle_input(input);
+  lay_out();  // a key may have hidden the panel
   const Ui ui{layout_, gui_.fonts(), gui_.scale()};
   draw_panel(ui);
+  const double answered_seconds = glfwGetTime();
   draw_overlays(ui);
   send_edits();
-  draw_picture();
+  draw_background();
   gui_.render();
   ++frames_drawn_;
   if (is_last && frames_drawn_ > frames_to_settle) {
@@ -143,6 +150,7 @@ void Viewer::draw_frame() {
   }
   if (is_last) frames_due_ = 1;
   window_.swap();
+  draw_seconds_ = glfwGetTime() - answered_seconds;
   layout_.finish_frame();  // it tells of what is on the screen
 }
 

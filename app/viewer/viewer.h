@@ -32,10 +32,10 @@ class Viewer {
 
  private:
   // The loop: what is due, and when. viewer.cpp
-  double seconds_to_frame() const;
+  double due_seconds() const;
   void wait();
   void watch_files();
-  void draw_frame();
+  void draw_frame(double due_seconds);
   bool has_finished_picture() const;
   bool is_run_over() const;
 
@@ -45,6 +45,7 @@ class Viewer {
   void adopt_model();
   std::optional<tracer::View> find_view();
   void open(const std::filesystem::path& path);
+  void hold_back_build();
   void send_edits();
   void answer_edits();
 
@@ -59,7 +60,7 @@ class Viewer {
 
   // What the user sees. viewer_draw.cpp
   void lay_out();
-  void draw_picture();
+  void draw_background();
   void draw_panel(const Ui& ui);
   void draw_header(const Ui& ui);
   void draw_overlays(const Ui& ui);
@@ -80,6 +81,8 @@ class Viewer {
   OpenDialog open_dialog_;
 
   ViewerSettings settings_;
+  tracer::BuildSettings sent_build_;  // what the session was last asked for
+  bool was_build_dragged_ = false;    // when it was
   Viewpoint viewpoint_;
   PictureArea area_;
   bool is_panel_shown_ = true;
@@ -101,6 +104,7 @@ class Viewer {
   int frames_due_ = 0;  // after input, until hovering and layout have settled
   int frames_drawn_ = 0;
   double last_frame_seconds_ = -1;
+  double draw_seconds_ = 0;   // that the last frame took once edits were answered
   bool is_captured_ = false;  // the picture of a run of options_.frames
 
   Session session_;  // last: its threads end before what they wake

@@ -32,18 +32,20 @@ void Viewer::lay_out() {
   layout_.note("picture", min, min + tracer::Vec2f(area_.size));
 }
 
-void Viewer::draw_picture() {
-  if (adopted_generation_ == 0 || picture_.is_empty()) return;
+void Viewer::draw_background() {
+  const tracer::Vec2d max = area_.min + area_.size;
+  const tracer::Vec2d corner(window_.size());
+  if (max.x < corner.x) gui_.fill({max.x, 0}, corner, palette::panel);
+  if (adopted_generation_ == 0 || picture_.is_empty()) {
+    gui_.fill(area_.min, max, palette::backdrop);
+    return;
+  }
   for (const tracer::Tile& tile : picture_.take_changes()) {
     texture_.upload(picture_.developed(), picture_.size_px(), tile);
   }
-  const tracer::Vec2f min(area_.min);
-  const tracer::Vec2f max = min + tracer::Vec2f(area_.size);
-  const auto id = reinterpret_cast<ImTextureID>(static_cast<uintptr_t>(texture_.name()));
-  ImGui::GetBackgroundDrawList()->AddImage(id, ImVec2(min.x, min.y), ImVec2(max.x, max.y));
+  texture_.show(gui_.framebuffer_tile(area_.min, max), window_.framebuffer_px().y);
   if (has_finished_picture()) {
-    layout_.note("finished picture", tracer::Vec2f(area_.min),
-                 tracer::Vec2f(area_.min + area_.size));
+    layout_.note("finished picture", tracer::Vec2f(area_.min), tracer::Vec2f(max));
   }
 }
 
@@ -88,7 +90,7 @@ void Viewer::draw_panel(const Ui& ui) {
   ImGui::SetNextWindowSize(ImVec2(std::max(display.x - left, 1.0f), display.y));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
-  ImGui::Begin("##panel", nullptr, docked);
+  ImGui::Begin("##panel", nullptr, docked | ImGuiWindowFlags_NoBackground);
   ImGui::PopStyleVar(2);
   draw_header(ui);
   if (status_.model && status_.model->warnings.count() > 0) {

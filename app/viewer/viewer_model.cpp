@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Viewer: models, tiles and news from the session, edits to it.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <system_error>
@@ -95,7 +96,17 @@ void Viewer::adopt_model() {
   report_warnings(model);
 }
 
+// While a hand drags on, the tree under way is finished and shown before the next is begun; were it
+// given up for each new value, a large model would show none until the hand rests.
+void Viewer::hold_back_build() {
+  const bool is_dragged = settings_.is_build_dragged;
+  if (is_dragged && was_build_dragged_ && status_.is_building) return;
+  sent_build_ = settings_.build;
+  was_build_dragged_ = is_dragged;
+}
+
 void Viewer::send_edits() {
+  hold_back_build();
   viewpoint_.set_up(settings_.up, aspect());
   picture_.set_exposure(settings_.render.exposure);
   const uint32_t triangle_count = status_.model ? status_.model->scene.mesh->triangle_count() : 0;
@@ -109,7 +120,7 @@ void Viewer::send_edits() {
                 .render = settings_.render,
                 .builder = settings_.builder_for(triangle_count),
                 .layout = settings_.layout,
-                .build = settings_.build,
+                .build = sent_build_,
                 .improve = settings_.improves_tree,
                 .sample_limit = settings_.sample_limit});
 }
@@ -117,12 +128,13 @@ void Viewer::send_edits() {
 // Edits are sent, and what answers them soon is awaited, so that this frame shows it: a frame is
 // rather a little late than the picture a frame behind the mouse.
 void Viewer::answer_edits() {
-  constexpr double patience_seconds = 1.0 / 120;
+  constexpr double frame_seconds = 1.0 / 60;
   constexpr auto pause = std::chrono::microseconds(300);
   const bool was_answered = status_.is_answered && !is_job_running();
   send_edits();
   if (!was_answered) return;
-  const double end_seconds = glfwGetTime() + patience_seconds;
+  const double end_seconds = std::max(last_frame_seconds_ + frame_seconds - draw_seconds_,
+                                      glfwGetTime() + frame_seconds / 2);
   for (take_update(); !status_.is_answered && glfwGetTime() < end_seconds; take_update()) {
     std::this_thread::sleep_for(pause);
   }

@@ -14,6 +14,7 @@
 #include "tests/bench/compare/ray_sets.h"
 #include "tests/bench/compare/statistics.h"
 #include "tests/bench/compare/tracers.h"
+#include "tests/bench/compare/window_records.h"
 #include "tests/support/large_meshes.h"
 #include "tracer/bvh/build.h"
 
@@ -194,6 +195,25 @@ TEST(BenchReport, build_records_have_the_fields_that_scripts_read) {
   EXPECT_EQ(json["sah"], 21.5);
   EXPECT_EQ(json["bytes"], 640);
   EXPECT_EQ(json["bytes_a_triangle"], 64);
+}
+
+TEST(BenchWindow, the_longest_gap_counts_from_the_begin_and_to_the_end) {
+  const std::vector<double> times{0.25, 0.5, 1.0};
+  EXPECT_DOUBLE_EQ(frame_rate_of(times, 1.5).frames_per_second, 2);
+  EXPECT_DOUBLE_EQ(frame_rate_of(times, 1.25).longest_gap_ms, 500);
+  EXPECT_DOUBLE_EQ(frame_rate_of(times, 2).longest_gap_ms, 1000);
+  EXPECT_DOUBLE_EQ(frame_rate_of({}, 2).longest_gap_ms, 2000);
+  EXPECT_EQ(frame_rate_of({}, 2).frames_per_second, 0);
+}
+
+TEST(BenchWindow, drag_records_have_the_fields_that_scripts_read) {
+  const nlohmann::json json = DragRecord{"cow", "drag", {{60, 17}, {50, 40}, {59, 20}}};
+  EXPECT_EQ(json["scene"], "cow");
+  EXPECT_EQ(json["measure"], "drag");
+  EXPECT_EQ(json["drags"], 3);
+  EXPECT_EQ(json["frames_per_second"]["median"], 59);
+  EXPECT_EQ(json["longest_gap_ms"]["median"], 20);
+  EXPECT_EQ(json["longest_gap_ms"]["max"], 40);
 }
 
 TEST(BenchReport, the_ratio_table_names_the_mean_and_the_least) {

@@ -188,6 +188,31 @@ TEST_F(BallWindowTest, a_saved_view_is_opened_again) {
   EXPECT_EQ(look_at("picture"), saved);
 }
 
+TEST_F(WindowTest, trees_follow_a_hand_that_drags_on) {
+  write_ball(folder_.path() / "large.obj", 500);
+  start({"large.obj", "--spp", "1"});
+  ASSERT_TRUE(wait_for_widget("finished picture"));
+  move_to("leaf-size", 0.1);
+  const Rectangle heading = *find_widget("section Statistics");
+  const Rectangle row = *find_widget("rate");
+  // Triangles, nodes and leaves: improvement of a tree leaves them alone.
+  const Rectangle counts{heading.x0, heading.y1, heading.x1, heading.y1 + 3 * (row.y1 - row.y0)};
+  const auto before = look_at(counts);
+  // A new value every 10 ms, far less than a tree takes, for longer than the test waits.
+  const Rectangle slider = *find_widget("leaf-size");
+  std::vector<std::string> moves{"mousedown", "1"};
+  for (int move = 0; move < 12'000; ++move) {
+    const int x = slider.x0 + 20 + 3 * move % (slider.x1 - slider.x0 - 40);
+    for (const std::string& word :
+         {std::string("mousemove"), std::to_string(x), std::to_string(slider.y0 + 5),
+          std::string("sleep"), std::string("0.01")}) {
+      moves.push_back(word);
+    }
+  }
+  const ChildProgram hand(find_program("xdotool"), moves);
+  EXPECT_TRUE(wait_until([&] { return look_at(counts) != before; }));
+}
+
 TEST_F(WindowTest, frames_and_screenshot_write_the_whole_window) {
   write_ball(folder_.path() / "ball.obj", 10);
   start({"ball.obj", "--frames", "2", "--screenshot", "window.png"});

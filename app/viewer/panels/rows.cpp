@@ -47,7 +47,8 @@ void control_label(const Ui& ui, const std::string& label) {
 }
 
 void tooltip(const Ui& ui, const std::string& text) {
-  if (text.empty() || !ImGui::IsItemHovered()) return;
+  // In mid-drag the hand knows what it holds, and the picture is what is looked at.
+  if (text.empty() || !ImGui::IsItemHovered() || ImGui::IsItemActive()) return;
   // Beside the panel, level with the item: over the controls it would hide the next one.
   ImGui::SetNextWindowPos(ImVec2(ImGui::GetWindowPos().x - 6 * ui.scale, ImGui::GetItemRectMin().y),
                           ImGuiCond_Always, ImVec2(1, 0));

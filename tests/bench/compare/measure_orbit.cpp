@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a hand on the mouse waits for, seen from outside: real events in, pixels out.
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -14,8 +15,8 @@
 #include "tests/bench/compare/mouse.h"
 #include "tests/bench/compare/report_files.h"
 #include "tests/bench/compare/screen_watch.h"
-#include "tests/bench/compare/statistics.h"
 #include "tests/bench/compare/viewer_under_test.h"
+#include "tests/bench/compare/window_records.h"
 
 namespace bench {
 namespace {
@@ -23,42 +24,6 @@ namespace {
 using tests::Rectangle;
 
 constexpr double patience_seconds = 60;
-
-/// From an event to what it changes on the screen.
-struct LatencyRecord {
-  std::string scene;
-  std::string measure;       // orbit: mouse motion to picture; slider: press to tree statistics
-  std::vector<double> ms{};  // one an event
-  int unanswered = 0;        // events without an answer
-  double pictures_per_second = 0;  // orbit: while the mouse moves 60 times a second
-};
-
-void to_json(nlohmann::json& json, const LatencyRecord& record) {
-  const Spread spread = spread_of(record.ms);
-  json = {{"scene", record.scene},
-          {"measure", record.measure},
-          {"events", record.ms.size()},
-          {"unanswered", record.unanswered},
-          {"ms",
-           {{"min", spread.min},
-            {"median", spread.median},
-            {"p95", quantile(record.ms, 0.95)},
-            {"max", spread.max}}}};
-  if (record.pictures_per_second > 0) json["pictures_per_second"] = record.pictures_per_second;
-}
-
-std::string table_line(const LatencyRecord& record) {
-  const Spread spread = spread_of(record.ms);
-  std::string line = fmt::format(
-      "{:<8} {:<7} {:>3} events  median {:>6.1f} ms  95 % within {:>6.1f} ms  ({:.1f} - {:.1f})",
-      record.scene, record.measure, record.ms.size(), spread.median, quantile(record.ms, 0.95),
-      spread.min, spread.max);
-  if (record.pictures_per_second > 0) {
-    line += fmt::format("  {:.0f} pictures a second while dragging", record.pictures_per_second);
-  }
-  if (record.unanswered > 0) line += fmt::format("  {} unanswered", record.unanswered);
-  return line;
-}
 
 void pause(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
@@ -78,9 +43,8 @@ void require_still(const ScreenWatch& screen, const Rectangle& area, double stil
   }
 }
 
-// One sample a pixel, so that each picture is soon done and only an event can change it.
-void limit_samples(const ViewerUnderTest& viewer, Mouse& mouse) {
-  move_to_part(mouse, viewer.widget("sample-limit"), 0.01);
+void click_slider(Mouse& mouse, const Rectangle& slider, double part) {
+  move_to_part(mouse, slider, part);
   mouse.press();
   pause(0.1);
   mouse.release();
@@ -140,7 +104,7 @@ double pictures_per_second(const ScreenWatch& screen, const Rectangle& picture, 
   return change_count / stopwatch.seconds();
 }
 
-LatencyRecord measure_dragging(const std::string& scene, const ViewerUnderTest& viewer,
+LatencyRecord measure_orbiting(const std::string& scene, const ViewerUnderTest& viewer,
                                const ScreenWatch& screen, Mouse& mouse, int event_count) {
   const Rectangle picture = viewer.widget("picture");
   LatencyRecord record{scene, "orbit"};
@@ -179,6 +143,46 @@ LatencyRecord measure_slider(const std::string& scene, const ViewerUnderTest& vi
   return record;
 }
 
+// Frames are seen by what is set: each motion sets another value. Of the slider a row of pixels
+// above its letters is watched, as the server may be in the midst of copying what is taller.
+FrameRate watch_drag(const ScreenWatch& screen, const Rectangle& slider, Mouse& mouse,
+                     double seconds) {
+  constexpr double interval_seconds = 1.0 / 250;  // of a common mouse
+  constexpr double sweep_seconds = 0.6;           // from one end to the other, and from there again
+  const Rectangle row{slider.x0, slider.y0 + 2, slider.x1, slider.y0 + 3};
+  std::vector<double> times;
+  uint64_t shown = screen.fingerprint(row);
+  const app::Stopwatch stopwatch;
+  mouse.press();
+  for (int motion = 1; motion * interval_seconds < seconds; ++motion) {
+    const double sweep = motion * interval_seconds / sweep_seconds;
+    move_to_part(mouse, slider, 0.1 + 0.8 * (sweep - std::floor(sweep)));
+    while (stopwatch.seconds() < motion * interval_seconds) {
+      const double left = motion * interval_seconds - stopwatch.seconds();
+      if (!screen.seconds_to_change(row, shown, left)) continue;
+      times.push_back(stopwatch.seconds());
+      shown = screen.fingerprint(row);
+    }
+  }
+  const double end_seconds = stopwatch.seconds();
+  mouse.release();
+  return frame_rate_of(times, end_seconds);
+}
+
+DragRecord measure_drag(const std::string& scene, const std::string& measure,
+                        const ViewerUnderTest& viewer, const ScreenWatch& screen, Mouse& mouse,
+                        int drag_count) {
+  constexpr double drag_seconds = 2;
+  const Rectangle slider = viewer.widget("leaf-size");
+  DragRecord record{scene, measure};
+  for (int drag = 0; drag < drag_count; ++drag) {
+    move_to_part(mouse, slider, 0.05);
+    pause(1 + 0.0011 * drag);  // the tree of the drag before is done, or well under way
+    record.rates.push_back(watch_drag(screen, slider, mouse, drag_seconds));
+  }
+  return record;
+}
+
 void write_obj(const std::filesystem::path& path, const tracer::Mesh& mesh) {
   std::ofstream file(path);
   for (const tracer::Vec3f& position : mesh.positions) {
@@ -189,8 +193,23 @@ void write_obj(const std::filesystem::path& path, const tracer::Mesh& mesh) {
   }
 }
 
-std::vector<LatencyRecord> measure_scene(const Scene& scene, const tests::VirtualDisplay& display,
-                                         Effort effort) {
+/// Adds records, and prints each as soon as it is there.
+class Report {
+ public:
+  template <class Record>
+  void add(const Record& record) {
+    fmt::print("{}\n", table_line(record));
+    std::fflush(stdout);
+    records_.push_back(record);
+  }
+  const nlohmann::json& records() const { return records_; }
+
+ private:
+  nlohmann::json records_ = nlohmann::json::array();
+};
+
+void measure_scene(const Scene& scene, const tests::VirtualDisplay& display, Effort effort,
+                   Report& report) {
   const tests::TemporaryFolder folder;
   const std::filesystem::path model = folder / fmt::format("{}.obj", scene.name);
   write_obj(model, *scene.mesh);
@@ -198,12 +217,17 @@ std::vector<LatencyRecord> measure_scene(const Scene& scene, const tests::Virtua
   const ScreenWatch screen(display);
   Mouse mouse;
   viewer.widget("model");
-  limit_samples(viewer, mouse);
-  require_still(screen, viewer.widget("picture"), 0.5);
   const std::string name(scene.name);
   const bool is_quick = effort == Effort::quick;
-  return {measure_dragging(name, viewer, screen, mouse, is_quick ? 15 : 80),
-          measure_slider(name, viewer, screen, mouse, is_quick ? 6 : 24)};
+  const Rectangle sample_limit = viewer.widget("sample-limit");
+  click_slider(mouse, sample_limit, 0.99);
+  report.add(measure_drag(name, "resolving", viewer, screen, mouse, is_quick ? 2 : 7));
+  // One sample a pixel, so that each picture is soon done and only an event can change it.
+  click_slider(mouse, sample_limit, 0.01);
+  require_still(screen, viewer.widget("picture"), 0.5);
+  report.add(measure_drag(name, "drag", viewer, screen, mouse, is_quick ? 2 : 7));
+  report.add(measure_orbiting(name, viewer, screen, mouse, is_quick ? 15 : 80));
+  report.add(measure_slider(name, viewer, screen, mouse, is_quick ? 6 : 24));
 }
 
 // The scenes with a target, unless others are named.
@@ -217,20 +241,17 @@ Options with_orbit_scenes(Options options) {
 int measure_orbit(const Options& options) {
   const tests::VirtualDisplay display;
   if (!display.is_running()) throw std::runtime_error("Xvfb does not start; is it installed?");
-  std::vector<LatencyRecord> records;
+  Report report;
   for (const SceneEntry* entry : chosen_scenes(with_orbit_scenes(options))) {
     const auto scene = make_scene(*entry, options.effort);
     if (!scene) continue;
-    for (const LatencyRecord& record : measure_scene(*scene, display, options.effort)) {
-      fmt::print("{}\n", table_line(record));
-      std::fflush(stdout);
-      records.push_back(record);
-    }
+    measure_scene(*scene, display, options.effort, report);
   }
-  if (records.empty()) return 1;
+  if (report.records().empty()) return 1;
   fmt::print(
-      "targets: orbit 33 ms, 95 % within 50 ms; slider 16 ms on the bunny, 150 ms on the sphere\n");
-  write_json(options.folder / "orbit", records);
+      "targets: orbit 33 ms, 95 % within 50 ms; slider 16 ms on the bunny, 150 ms on the sphere; "
+      "60 frames a second, the window's limit, while a slider is dragged\n");
+  write_json(options.folder / "orbit", report.records());
   return 0;
 }
 
