@@ -26,20 +26,18 @@ std::vector<Tile> make_tiles(Vec2i size_px) {
 }
 
 Film::Film(Vec2i size_px)
-    : size_px_(size_px),
-      sums_(static_cast<size_t>(size_px.x) * size_px.y),
-      counts_(static_cast<size_t>(size_px.x) * size_px.y) {}
+    : size_px_(size_px), pixels_(static_cast<size_t>(size_px.x) * size_px.y) {}
 
 Vec3f Film::mean(int x, int y) const {
   for (const int stride : {1, 2, 4, 8}) {
-    const size_t pixel = index(x - x % stride, y - y % stride);
-    if (counts_[pixel] > 0) return Vec3f(sums_[pixel] / static_cast<double>(counts_[pixel]));
+    const Pixel& pixel = pixels_[index(x - x % stride, y - y % stride)];
+    if (pixel.count > 0) return Vec3f(pixel.sum / static_cast<double>(pixel.count));
   }
   return Vec3f(0);
 }
 
 Image Film::image() const {
-  Image image{size_px_, std::vector<Vec3f>(sums_.size())};
+  Image image{size_px_, std::vector<Vec3f>(pixels_.size())};
   parallel_for_ranges(0, static_cast<size_t>(size_px_.y), 16, [&](size_t begin, size_t end) {
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
       for (int x = 0; x < size_px_.x; ++x) image.pixels[index(x, y)] = mean(x, y);
@@ -49,8 +47,7 @@ Image Film::image() const {
 }
 
 void Film::clear() {
-  std::fill(sums_.begin(), sums_.end(), Vec3d(0));
-  std::fill(counts_.begin(), counts_.end(), 0);
+  std::fill(pixels_.begin(), pixels_.end(), Pixel{});
 }
 
 }  // namespace tracer

@@ -33,10 +33,11 @@ class Film {
   explicit Film(Vec2i size_px);
 
   Vec2i size_px() const { return size_px_; }
-  uint32_t sample_count(int x, int y) const { return counts_[index(x, y)]; }
+  uint32_t sample_count(int x, int y) const { return pixels_[index(x, y)].count; }
   void add(int x, int y, const Vec3d& radiance) {
-    sums_[index(x, y)] += radiance;
-    ++counts_[index(x, y)];
+    Pixel& pixel = pixels_[index(x, y)];
+    pixel.sum += radiance;
+    ++pixel.count;
   }
   /// Mean radiance; where a pixel has no sample yet, that of the nearest pixel up and left on a
   /// coarser grid (8, 4, 2) that has one, else black.
@@ -45,11 +46,16 @@ class Film {
   void clear();
 
  private:
+  // Together: who asks for the count adds to the sum soon after.
+  struct Pixel {
+    Vec3d sum{0};
+    uint32_t count = 0;
+  };
+
   size_t index(int x, int y) const { return static_cast<size_t>(y) * size_px_.x + x; }
 
   Vec2i size_px_;
-  std::vector<Vec3d> sums_;
-  std::vector<uint32_t> counts_;
+  std::vector<Pixel> pixels_;
 };
 
 }  // namespace tracer
