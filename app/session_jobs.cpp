@@ -22,7 +22,8 @@ void put(BuiltTree& built, BuiltAccel made) {
   built.held_tree = built.tree;
   if (!built.tree) return;
   built.metrics = measure(*built.tree, sah_costs(built.key.settings));
-  built.measurement = std::make_shared<QualityMeasurement>(built.accel->mesh, built.tree);
+  built.measurement =
+      std::make_shared<QualityMeasurement>(QualityMeasurement{built.accel->mesh, built.tree});
 }
 
 }  // namespace

@@ -17,6 +17,8 @@ void LayoutReport::note(const std::string& name, const tracer::Vec2f& min,
 }
 
 void LayoutReport::note_last_item(const std::string& name) {
+  // A window that fits itself to what it holds is not seen in its first frame, and not in place.
+  if (ImGui::IsWindowAppearing()) return;
   const ImVec2 min = ImGui::GetItemRectMin();
   const ImVec2 max = ImGui::GetItemRectMax();
   note(name, {min.x, min.y}, {max.x, max.y});
