@@ -27,15 +27,29 @@ bool may_share_origin(std::span<const Ray> rays) {
   return rays.size() >= least_bundle && rays.front().origin == rays.back().origin;
 }
 
-// Calls stream(first, end), which returns how many it answered, and alone(i) for what it left.
-template <class Stream, class Alone>
-void trace_without_bundles(const WideTree* tree, size_t first, size_t end, const Stream& stream,
-                           const Alone& alone) {
+template <class Answer>
+using StreamFunction = size_t (*)(const WideTree& tree, std::span<const Ray> rays,
+                                  const StopFlag& stop, std::span<Answer> answers);
+
+// Calls trace_alone(ray, answer) for what the stream leaves. Returns how many the stream answered.
+template <class Answer, class TraceAlone>
+size_t trace_without_bundles(const WideTree* tree, std::span<const Ray> rays, const StopFlag& stop,
+                             std::span<Answer> answers, StreamFunction<Answer> stream,
+                             const TraceAlone& trace_alone) {
   const bool pays = tree && tree->expected_steps < most_steps_in_stream;
-  while (first < end) {
-    if (pays && end - first >= least_stream) first += stream(first, end);
-    if (first < end) alone(first++);
+  size_t first = 0, streamed = 0;
+  while (first < rays.size()) {
+    if (pays && rays.size() - first >= least_stream) {
+      const size_t done = stream(*tree, rays.subspan(first), stop, answers.subspan(first));
+      streamed += done;
+      first += done;
+    }
+    if (first < rays.size()) {
+      trace_alone(rays[first], answers[first]);
+      ++first;
+    }
   }
+  return streamed;
 }
 
 }  // namespace
@@ -43,16 +57,11 @@ void trace_without_bundles(const WideTree* tree, size_t first, size_t end, const
 void RayCaster::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) {
   assert(rays.size() == hits.size());
   const auto trace_rest = [&](size_t begin, size_t end) {
-    trace_without_bundles(
-        accel_.wide.get(), begin, end,
-        [&](size_t first, size_t last) {
-          const size_t count = last - first;
-          const size_t done = closest_hits_stream(*accel_.wide, rays.subspan(first, count), stop_,
-                                                  hits.subspan(first, count));
-          ray_count_ += done;
-          return done;
-        },
-        [&](size_t i) { hits[i] = closest_hit(rays[i]); });
+    const size_t streamed =
+        trace_without_bundles(accel_.wide.get(), rays.subspan(begin, end - begin), stop_,
+                              hits.subspan(begin, end - begin), closest_hits_stream,
+                              [this](const Ray& ray, Hit& hit) { hit = closest_hit(ray); });
+    ray_count_ += streamed;
   };
   size_t unanswered = 0;  // from here on
   for (size_t first = 0; first < rays.size();) {
@@ -72,16 +81,11 @@ void RayCaster::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) {
 void RayCaster::occluded(std::span<const Ray> rays, std::span<uint8_t> is_occluded) {
   assert(rays.size() == is_occluded.size());
   const auto trace_rest = [&](size_t begin, size_t end) {
-    trace_without_bundles(
-        accel_.wide.get(), begin, end,
-        [&](size_t first, size_t last) {
-          const size_t count = last - first;
-          const size_t done = occluded_stream(*accel_.wide, rays.subspan(first, count), stop_,
-                                              is_occluded.subspan(first, count));
-          ray_count_ += done;
-          return done;
-        },
-        [&](size_t i) { is_occluded[i] = occluded(rays[i]) ? 1 : 0; });
+    const size_t streamed = trace_without_bundles(
+        accel_.wide.get(), rays.subspan(begin, end - begin), stop_,
+        is_occluded.subspan(begin, end - begin), occluded_stream,
+        [this](const Ray& ray, uint8_t& answer) { answer = occluded(ray) ? 1 : 0; });
+    ray_count_ += streamed;
   };
   size_t unanswered = 0;                     // from here on
   size_t failures = 0, bundles_to_skip = 0;  // where bundles don't pay, few are tried
