@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/large_meshes.h"
 #include "tests/support/test_meshes.h"
 #include "tracer/base/parallel.h"
 #include "tracer/bvh/metrics.h"
@@ -167,6 +168,31 @@ TEST(Builders, binned_sah_costs_at_most_two_percent_more_than_the_sweep_on_model
     if (mesh.triangles.empty()) GTEST_SKIP() << model << " is missing";
     expect_binned_near_sweep(mesh);
   }
+}
+
+// As an average over points around a dense ball.
+double boxes_around_a_point(const char* builder, const LargeVector<Box>& boxes) {
+  const BvhTree tree = build(*find_builder(builder), boxes, {});
+  constexpr int point_count = 1000;
+  RandomSource random(5);
+  int around = 0;
+  for (int i = 0; i < point_count; ++i) {
+    const Vec3f point = random.vector(-1, 1) + Vec3f(0, 1.05f, 0);
+    for (const BvhNode& node : tree.nodes) {
+      if (glm::all(glm::lessThanEqual(node.bounds.min, point)) &&
+          glm::all(glm::lessThanEqual(point, node.bounds.max))) {
+        ++around;
+      }
+    }
+  }
+  return static_cast<double>(around) / point_count;
+}
+
+TEST(Builders, binned_sah_tells_a_dense_model_from_the_wide_floor_it_stands_on) {
+  const auto boxes = primitive_boxes(stadium(30));
+  EXPECT_LE(boxes_around_a_point("binned-sah", boxes),
+            1.1 * boxes_around_a_point("sweep-sah", boxes));
+  expect_binned_near_sweep(stadium(30));
 }
 
 TEST(Builders, morton_costs_no_more_than_a_third_above_the_sweep) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <tuple>
 
 #include "tracer/base/scratch_array.h"
@@ -12,6 +13,9 @@
 
 namespace tracer {
 namespace {
+
+// Finer bins are tried as long as they gain; each round costs another look at all.
+constexpr int most_finer_rounds = 3;
 
 // A node before it is split. Its references are in one of two buffers, at positions `range`.
 struct Part {
@@ -133,24 +137,29 @@ class BinnedBuild {
     return split(part, binning, {chunks.get(), count});
   }
 
-  std::array<Part, 2> split(const Part& part, const Binning& binning, std::span<Chunk> chunks) {
-    for_each_chunk(part.range, progress_, [&](uint32_t i, PrimitiveRange range) {
-      Chunk& chunk = chunks[i];
-      chunk.range = range;
-      chunk.bins.clear(binning.bin_count());
-      chunk.bins.add({&buffers_[part.buffer][range.begin], range.count()}, binning);
-    });
+  std::array<Part, 2> split(const Part& part, Binning binning, std::span<Chunk> chunks) {
     std::unique_ptr<Bins> sum;
-    if (chunks.size() > 1) {
-      sum = std::make_unique<Bins>(chunks[0].bins);
-      for (const Chunk& chunk : chunks.subspan(1)) sum->add(chunk.bins);
+    const auto gather = [&](const Binning& with) -> const Bins& {
+      return gather_bins(part, with, chunks, sum);
+    };
+    const uint32_t limit = side_limit(part.range.count(), leaf_size_, max_depth_ - part.depth);
+    const Bins* bins = &gather(binning);
+    BinSplit split = bins->best_split(block_count_, scale_, limit);
+    for (int round = 0; round < most_finer_rounds; ++round) {
+      const std::optional<Binning> finer = binning.finer(*bins);
+      if (!finer) break;
+      bins = &gather(*finer);
+      const BinSplit candidate = bins->best_split(block_count_, scale_, limit);
+      if (!(candidate.cost < split.cost)) {
+        bins = &gather(binning);
+        break;
+      }
+      binning = *finer;
+      split = candidate;
     }
-    const Bins& bins = sum ? *sum : chunks[0].bins;
-    const BinSplit split = bins.best_split(
-        block_count_, scale_, side_limit(part.range.count(), leaf_size_, max_depth_ - part.depth));
     if (!split.exists()) return halve(part);
 
-    const uint32_t middle = part.range.begin + bins.left_count(split);
+    const uint32_t middle = part.range.begin + bins->left_count(split);
     uint32_t left_begin = part.range.begin;
     uint32_t right_begin = middle;
     for (Chunk& chunk : chunks) {
@@ -163,7 +172,7 @@ class BinnedBuild {
     for_each_chunk(part.range, progress_,
                    [&](uint32_t i, PrimitiveRange) { move(part, binning, split, chunks[i]); });
 
-    const std::array<Box4, 2> bounds = bins.side_bounds(split);
+    const std::array<Box4, 2> bounds = bins->side_bounds(split);
     std::array<Part, 2> sides = empty_sides(part, middle);
     for (int side = 0; side < 2; ++side) {
       sides[side].buffer = 1 - part.buffer;
@@ -171,6 +180,20 @@ class BinnedBuild {
       for (const Chunk& chunk : chunks) sides[side].half_centers.extend(chunk.half_centers[side]);
     }
     return sides;
+  }
+
+  const Bins& gather_bins(const Part& part, const Binning& binning, std::span<Chunk> chunks,
+                          std::unique_ptr<Bins>& sum) {
+    for_each_chunk(part.range, progress_, [&](uint32_t i, PrimitiveRange range) {
+      Chunk& chunk = chunks[i];
+      chunk.range = range;
+      chunk.bins.clear(binning.bin_count());
+      chunk.bins.add({&buffers_[part.buffer][range.begin], range.count()}, binning);
+    });
+    if (chunks.size() == 1) return chunks[0].bins;
+    sum = std::make_unique<Bins>(chunks[0].bins);
+    for (const Chunk& chunk : chunks.subspan(1)) sum->add(chunk.bins);
+    return *sum;
   }
 
   // Stably, to the other buffer.

@@ -3,6 +3,28 @@
 
 namespace tracer {
 
+std::optional<Binning> Binning::finer(const Bins& bins) const {
+  const uint32_t all = bins.left_count({.axis = 0, .bin = bin_count_});
+  const float times = static_cast<float>(max_bin_count) / static_cast<float>(bin_count_);
+  Binning finer = *this;
+  finer.bin_count_ = max_bin_count;
+  const Float4 scales = scale_ * times;
+  finer.scale_ = scales < Box4::infinity ? scales : Float4{};
+  bool is_finer = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int fullest = bins.fullest(axis);
+    const float scale = scale_[axis] * static_cast<float>(max_bin_count);
+    if (scale_[axis] == 0 || !(scale < Box4::infinity) || bins.count(axis, fullest) <= all / 2) {
+      continue;
+    }
+    finer.origin_[axis] += static_cast<float>(fullest) / scale_[axis];
+    finer.scale_[axis] = scale;
+    is_finer = true;
+  }
+  if (!is_finer) return {};
+  return finer;
+}
+
 void Bins::clear(int bin_count) {
   bin_count_ = bin_count;
   for (int i = 0; i < bin_count; ++i) {
@@ -62,7 +84,15 @@ BinSplit Bins::best_split(const BlockCount& block_count, float scale, uint32_t l
     best.offer(half_areas(x, y, z), block_count(count), right_areas[i],
                block_count(right_counts[i]), larger_side, is_allowed, i);
   }
-  return {best.axis(), best.place()};
+  return {best.axis(), best.place(), best.cost()};
+}
+
+int Bins::fullest(int axis) const {
+  int fullest = 0;
+  for (int i = 1; i < bin_count_; ++i) {
+    if (count(axis, i) > count(axis, fullest)) fullest = i;
+  }
+  return fullest;
 }
 
 uint32_t Bins::left_count(BinSplit split) const {

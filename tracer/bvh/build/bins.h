@@ -4,6 +4,8 @@
 
 #include <array>
 #include <bit>
+#include <limits>
+#include <optional>
 #include <span>
 
 #include "tracer/bvh/build/reference.h"
@@ -17,12 +19,15 @@ inline constexpr int max_bin_count = 64;
 struct BinSplit {
   int axis = 0;
   int bin = 0;
+  float cost = std::numeric_limits<float>::infinity();  // area * blocks of both sides
 
   bool exists() const { return bin > 0; }
 };
 
+class Bins;
+
 /// Equal bins along each axis over the bounds of half centres; an axis along which they cannot be
-/// told apart has one bin.
+/// told apart has one bin. What lies beyond them counts in the first and the last bin.
 class Binning {
  public:
   Binning(const Box4& half_centers, int bin_count)
@@ -35,8 +40,13 @@ class Binning {
   int bin_count() const { return bin_count_; }
   bool parts_something() const { return scale_[0] + scale_[1] + scale_[2] > 0; }
   Int4 bins(const Box4& box) const {
-    return __builtin_convertvector((half_center_of(box) - origin_) * scale_, Int4);
+    const Float4 position = (half_center_of(box) - origin_) * scale_;
+    const Float4 last = Float4{} + static_cast<float>(bin_count_ - 1);
+    return __builtin_convertvector(min_of(max_of(position, Float4{}), last), Int4);
   }
+  /// Axes whose fullest bin holds more than half of the primitives have all their bins there, so
+  /// that a dense model on a wide floor is told apart from it. Nothing where there is none.
+  std::optional<Binning> finer(const Bins& bins) const;
 
  private:
   friend class SideTest;
@@ -79,6 +89,8 @@ class Bins {
   /// equals. Areas are taken of boxes scaled by `scale`.
   BinSplit best_split(const BlockCount& block_count, float scale, uint32_t limit) const;
   uint32_t left_count(BinSplit split) const;
+  int fullest(int axis) const;
+  uint32_t count(int axis, int bin) const { return bins_[static_cast<size_t>(bin)].counts[axis]; }
   std::array<Box4, 2> side_bounds(BinSplit split) const;
 
  private:

@@ -101,6 +101,7 @@ class BestSplits {
     return best;
   }
   int place() const { return place_[axis()]; }
+  float cost() const { return cost_[axis()]; }
 
  private:
   Float4 cost_ = Float4{} + std::numeric_limits<float>::infinity();

@@ -52,17 +52,19 @@ HWY_INLINE BlockHits hit_triangles(const float* HWY_RESTRICT block, const WideTr
       1.0625f * (spread * (2 * vertex_error + 4 * u * spread) + 2 * vertex_error * vertex_error) +
       FLT_MIN;  // products below it round absolutely
 
-  const auto origin_x = hn::Set(d, c.origin_x);
-  const auto origin_y = hn::Set(d, c.origin_y);
-  const auto origin_z = hn::Set(d, c.origin_z);
-  const auto shear_x = hn::Set(d, c.shear_x);
-  const auto shear_y = hn::Set(d, c.shear_y);
+  const auto origin_x = hn::Set(d, c.leaf_origin[0]);
+  const auto origin_y = hn::Set(d, c.leaf_origin[1]);
+  const auto origin_z = hn::Set(d, c.leaf_origin[2]);
+  const auto shear_x = hn::Set(d, c.shear[0]);
+  const auto shear_y = hn::Set(d, c.shear[1]);
   Lanes x[3], y[3], z[3];
   for (size_t corner = 0; corner < 3; ++corner) {
     const float* rows = block + 3 * corner * width;
-    z[corner] = hn::Sub(hn::Load(d, rows + c.row_z), origin_z);
-    x[corner] = hn::NegMulAdd(shear_x, z[corner], hn::Sub(hn::Load(d, rows + c.row_x), origin_x));
-    y[corner] = hn::NegMulAdd(shear_y, z[corner], hn::Sub(hn::Load(d, rows + c.row_y), origin_y));
+    z[corner] = hn::Sub(hn::Load(d, rows + c.leaf_row[2]), origin_z);
+    x[corner] =
+        hn::NegMulAdd(shear_x, z[corner], hn::Sub(hn::Load(d, rows + c.leaf_row[0]), origin_x));
+    y[corner] =
+        hn::NegMulAdd(shear_y, z[corner], hn::Sub(hn::Load(d, rows + c.leaf_row[1]), origin_y));
   }
   const auto edge = [](const Lanes& ax, const Lanes& ay, const Lanes& bx, const Lanes& by) {
     return hn::MulSub(ax, by, hn::Mul(ay, bx));

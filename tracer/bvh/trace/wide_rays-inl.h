@@ -49,19 +49,25 @@ struct RayConstants {
   alignas(16) float pad[4];          // 3u relative
   alignas(16) uint32_t near_row[4];  // of a node, in floats: min, or max for a negative direction
   alignas(16) uint32_t far_row[4];
-  uint32_t row_x, row_y, row_z;  // of a vertex in a block; z: the direction's largest component
-  float origin_x, origin_y, origin_z;
-  float shear_x, shear_y;
-  float toward;             // sign of the largest component
-  float largest_component;  // its size
-  bool is_far_reaching;     // Slabs::exact pays
-  float slack;              // how far outside its box the padded slabs let a ray pass, at most
-  float t_min;              // rounded down
+  // As the leaf's filter takes them: z is the axis of the direction's largest component.
+  alignas(16) float leaf_origin[4];
+  alignas(16) float shear[4];        // x, y
+  alignas(16) uint32_t leaf_row[4];  // of a vertex in a block, in floats
+  float toward;                      // sign of the largest component
+  float largest_component;           // its size
+  bool is_far_reaching;              // Slabs::exact pays
+  float slack;  // how far outside its box the padded slabs let a ray pass, at most
+  float t_min;  // rounded down
 };
 
+/// Lanes of the axes x, y, z of the leaf's filter, by the axis of its z.
+alignas(16) constexpr uint32_t leaf_axes[3][4] = {{1, 2, 0, 3}, {2, 0, 1, 3}, {0, 1, 2, 3}};
+
+/// The least float that is not below `value`, which is not negative.
 HWY_INLINE float round_up(double value) {
   const float rounded = static_cast<float>(value);
-  return static_cast<double>(rounded) < value ? std::nextafterf(rounded, FLT_MAX * 2) : rounded;
+  const auto is_below = static_cast<uint32_t>(static_cast<double>(rounded) < value);
+  return std::bit_cast<float>(std::bit_cast<uint32_t>(rounded) + is_below);
 }
 
 struct SlabsThatPay {
@@ -136,19 +142,16 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& ray, RayConstants& c,
   hn::Store(hn::IfThenElse(is_negative, min_row, max_row), du4, c.far_row);
 
   // Without branches: the largest component of random rays is not to be foreseen.
-  const int z = size_z > size_xy ? 2 : static_cast<int>(size_y > size_x);
-  constexpr uint8_t next[3] = {1, 2, 0};
-  const int x = next[z];
-  const int y = next[x];
-  c.row_x = static_cast<uint32_t>(x) * width;
-  c.row_y = static_cast<uint32_t>(y) * width;
-  c.row_z = static_cast<uint32_t>(z) * width;
-  c.origin_x = o[x];
-  c.origin_y = o[y];
-  c.origin_z = o[z];
-  c.shear_x = direction[x] * c.inverse[z];
-  c.shear_y = direction[y] * c.inverse[z];
-  c.toward = std::copysign(1.0f, direction[z]);
+  const auto is_z = static_cast<uint32_t>(size_z > size_xy);
+  const auto is_y = static_cast<uint32_t>(size_y > size_x);
+  const auto axes = hn::Load(du4, leaf_axes[2 * is_z + (is_y & ~is_z)]);
+  const auto order = hn::IndicesFromVec(d4, axes);
+  const auto leaf_component = hn::TableLookupLanes(component, order);
+  const auto leaf_inverse = hn::TableLookupLanes(inverse, order);
+  hn::Store(hn::TableLookupLanes(origin, order), d4, c.leaf_origin);
+  hn::Store(hn::Mul(leaf_component, hn::Broadcast<2>(leaf_inverse)), d4, c.shear);
+  hn::Store(hn::Mul(axes, hn::Set(du4, width)), du4, c.leaf_row);
+  c.toward = hn::ExtractLane(hn::CopySign(hn::Set(d4, 1.0f), leaf_component), 2);
   const auto t_min = static_cast<float>(ray.t_min);
   c.t_min = std::max(0.0f, t_min - std::abs(t_min) * 2 * u);
   return true;
