@@ -169,8 +169,8 @@ TEST(Bundle, rays_of_a_square_of_pixels_are_one_bundle) {
   std::vector<uint8_t> is_occluded(64);
   for_each_instruction_set([&](const std::string& set) {
     const Accel wide = accel_of(rough_ball(20, 0.1f, 2), "wide");
-    EXPECT_TRUE(closest_hits_bundle(*wide.wide, rays, stop, hits)) << set;
-    EXPECT_TRUE(occluded_bundle(*wide.wide, shadow_rays, stop, is_occluded)) << set;
+    EXPECT_EQ(closest_hits_bundles(*wide.wide, rays, 1, stop, hits).answered, 1u) << set;
+    EXPECT_EQ(occluded_bundles(*wide.wide, shadow_rays, 1, stop, is_occluded).answered, 1u) << set;
   });
 }
 
@@ -180,12 +180,10 @@ TEST(Bundle, rays_from_different_points_are_no_bundle) {
   std::vector<Ray> rays(16, Ray{.origin = {0, 0, 3}, .direction = {0, 0, -1}, .t_max = 1});
   rays[7].origin.x = 1e-3f;
   const StopFlag stop;
-  std::vector<Hit> hits(16, Hit{.t = 1, .u = 0, .v = 0, .primitive = 5});
-  std::vector<uint8_t> is_occluded(16, 7);
-  EXPECT_FALSE(closest_hits_bundle(*accel.wide, rays, stop, hits));
-  EXPECT_FALSE(occluded_bundle(*accel.wide, rays, stop, is_occluded));
-  EXPECT_EQ(hits[0].primitive, 5u);
-  EXPECT_EQ(is_occluded[0], 7);
+  std::vector<Hit> hits(16);
+  std::vector<uint8_t> is_occluded(16);
+  EXPECT_EQ(closest_hits_bundles(*accel.wide, rays, 1, stop, hits).answered, 0u);
+  EXPECT_EQ(occluded_bundles(*accel.wide, rays, 1, stop, is_occluded).answered, 0u);
 }
 
 /// Rays without anything in common, among them some that kernels leave to others.

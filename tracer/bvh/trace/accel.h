@@ -48,6 +48,18 @@ Accel make_accel(std::shared_ptr<const Mesh> mesh, std::shared_ptr<const BvhTree
 Accel make_accel(std::shared_ptr<const Mesh> mesh, std::optional<BvhTree> tree,
                  const Layout& layout, Progress& progress);
 
+/// Bundles are tried seldom where they were given up.
+class BundleTries {
+ public:
+  bool skips_next() { return to_skip_ > 0 && to_skip_-- > 0; }
+  void note_failure();
+  void note_success();
+
+ private:
+  unsigned failures_ = 0;  // in a row
+  unsigned to_skip_ = 0;
+};
+
 /// Answers the rays of one tile or one test on one thread, and counts them. When `stop` is
 /// requested, answers may be misses: the caller looks at the flag before it keeps a result.
 class RayCaster {
@@ -70,6 +82,7 @@ class RayCaster {
   const Accel& accel_;
   const StopFlag& stop_;
   uint64_t ray_count_ = 0;
+  BundleTries hit_tries_, occlusion_tries_;
 };
 
 }  // namespace tracer

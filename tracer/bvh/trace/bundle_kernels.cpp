@@ -12,20 +12,22 @@
 #if HWY_ONCE
 namespace tracer {
 namespace {
-HWY_EXPORT(ClosestHitsBundle);
-HWY_EXPORT(OccludedBundle);
+HWY_EXPORT(ClosestHitsBundles);
+HWY_EXPORT(OccludedBundles);
 HWY_EXPORT(ClosestHitsStream);
 HWY_EXPORT(OccludedStream);
 }  // namespace
 
-bool closest_hits_bundle(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop,
-                         std::span<Hit> hits) {
-  return HWY_DYNAMIC_DISPATCH(ClosestHitsBundle)(tree, rays, stop, hits);
+BundleVerdicts closest_hits_bundles(const WideTree& tree, std::span<const Ray> rays,
+                                    size_t leaves_a_ray, const StopFlag& stop,
+                                    std::span<Hit> hits) {
+  return HWY_DYNAMIC_DISPATCH(ClosestHitsBundles)(tree, rays, leaves_a_ray, stop, hits);
 }
 
-bool occluded_bundle(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop,
-                     std::span<uint8_t> is_occluded) {
-  return HWY_DYNAMIC_DISPATCH(OccludedBundle)(tree, rays, stop, is_occluded);
+BundleVerdicts occluded_bundles(const WideTree& tree, std::span<const Ray> rays,
+                                size_t leaves_a_ray, const StopFlag& stop,
+                                std::span<uint8_t> is_occluded) {
+  return HWY_DYNAMIC_DISPATCH(OccludedBundles)(tree, rays, leaves_a_ray, stop, is_occluded);
 }
 
 size_t closest_hits_stream(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop,

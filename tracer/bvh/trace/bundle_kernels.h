@@ -10,19 +10,27 @@
 
 namespace tracer {
 
-/// Rays of one bundle at most.
+/// Rays of one bundle at most, and bundles that are traced together.
 inline constexpr size_t bundle_size = 64;
+inline constexpr size_t bundles_under_way = 8;
 
-/// The closest hits of 1 to bundle_size rays that leave one origin in similar directions. False
-/// where they do not, or are out of the filter's range: then `hits` is as it was. hits[i] belongs
-/// to rays[i]. Once `stop` is requested answers may be misses.
-[[nodiscard]] bool closest_hits_bundle(const WideTree& tree, std::span<const Ray> rays,
-                                       const StopFlag& stop, std::span<Hit> hits);
+/// Bit i: of the i-th bundle.
+struct BundleVerdicts {
+  uint32_t answered = 0;
+  uint32_t given_up = 0;  // met more leaves than leaves_a_ray allows
+};
 
-/// Which of 1 to bundle_size rays that end in one point (at a finite t_max), coming from similar
-/// directions, meet anything: 1, or 0. False as above.
-[[nodiscard]] bool occluded_bundle(const WideTree& tree, std::span<const Ray> rays,
-                                   const StopFlag& stop, std::span<uint8_t> is_occluded);
+/// The closest hits of as many rays as bundles under way hold. Each bundle_size of them in a row
+/// make a bundle if they leave one origin in similar directions. hits[i] belongs to rays[i]; those
+/// of bundles that are not answered mean nothing. Once `stop` is requested answers may be misses.
+BundleVerdicts closest_hits_bundles(const WideTree& tree, std::span<const Ray> rays,
+                                    size_t leaves_a_ray, const StopFlag& stop, std::span<Hit> hits);
+
+/// Which of as many rays meet anything: 1, or 0. Bundles end in one point (at a finite t_max),
+/// coming from similar directions. Likewise.
+BundleVerdicts occluded_bundles(const WideTree& tree, std::span<const Ray> rays,
+                                size_t leaves_a_ray, const StopFlag& stop,
+                                std::span<uint8_t> is_occluded);
 
 /// The closest hits of any rays, many under way at a time so that one works while others wait for
 /// memory or for what they decide. [Barringer 2014] Returns how many it answered: rays up to the

@@ -167,6 +167,7 @@ HWY_INLINE void set_all_depths(Bundle& bundle) {
 HWY_INLINE bool gather_from_origin(const WideTree& tree, std::span<const Ray> rays,
                                    Bundle& bundle) {
   bundle.ray_count = rays.size();
+  if (differing_bits(rays.front().origin, rays.back().origin) != 0) return false;
   set_point(tree, rays[0].origin, bundle);
   choose_axes(rays[rays.size() / 2].direction, bundle);
   if (!is_in_range(tree, bundle)) return false;
@@ -206,6 +207,11 @@ HWY_INLINE bool gather_from_end(const WideTree& tree, std::span<const Ray> rays,
   const Vec3d end = end_of(rays[0]);
   if (!(max_abs(end) < double{greatest_coordinate})) return false;
   set_point(tree, Vec3f(end), bundle);
+  const auto distance_from_end = [&](const Ray& ray) {
+    return max_abs(end_of(ray) - Vec3d(bundle.point));
+  };
+  // Not ">", here and below: NaN is no common end.
+  if (!(distance_from_end(rays.back()) <= double{8 * u * bundle.reach})) return false;
   choose_axes(-rays[rays.size() / 2].direction, bundle);
   if (!is_in_range(tree, bundle)) return false;
   const auto x = static_cast<int>(bundle.axis_x), y = static_cast<int>(bundle.axis_y);
@@ -213,8 +219,7 @@ HWY_INLINE bool gather_from_end(const WideTree& tree, std::span<const Ray> rays,
   double deviation = 0;
   float largest_origin = 0;
   for (const Ray& ray : rays) {
-    const double distance = max_abs(end_of(ray) - Vec3d(bundle.point));
-    // Not ">": NaN is no common end.
+    const double distance = distance_from_end(ray);
     if (!(distance <= double{8 * u * bundle.reach})) return false;
     deviation = std::max(deviation, distance);
     largest_origin = std::max(largest_origin, largest_component(ray.origin));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Many rays at once: which kernel suits which of them.
 #include <algorithm>
+#include <bit>
 #include <cassert>
 
 #include "tracer/bvh/trace/accel.h"
@@ -11,36 +12,47 @@ namespace {
 
 // Fewer rays are done sooner one by one.
 constexpr size_t least_bundle = 8;
-// In a row, after which every 32nd bundle is tried.
-constexpr size_t most_failures = 5;
+constexpr size_t rays_under_way = bundles_under_way * bundle_size;
+// A bundle that meets more leaves than it has rays is slower than a stream; where streams don't
+// pay, it has time. Measured.
+constexpr size_t leaves_a_ray_before_stream = 2, leaves_a_ray_before_single = 32;
+// In a row, after which one of 16 bundles is tried.
+constexpr unsigned most_failures = 4;
 
 // Fewer rays are done sooner one by one, and so are those that meet hundreds of nodes and blocks:
 // most blocks hold nothing for them, and a ray alone leaves those early. Measured.
 constexpr size_t least_stream = 8;
 constexpr float most_steps_in_stream = 100;
 
-size_t bundle_end(size_t first, size_t ray_count) {
-  return std::min(first + bundle_size, ray_count);
+bool streams_pay(const WideTree& tree) {
+  return tree.expected_steps < most_steps_in_stream;
 }
 
-bool may_share_origin(std::span<const Ray> rays) {
-  return rays.size() >= least_bundle && rays.front().origin == rays.back().origin;
+size_t rays_for_bundles(size_t ray_count) {
+  const size_t rest = ray_count % bundle_size;
+  return rest < least_bundle ? ray_count - rest : ray_count;
 }
 
+/// What answers many rays of one query.
 template <class Answer>
-using StreamFunction = size_t (*)(const WideTree& tree, std::span<const Ray> rays,
-                                  const StopFlag& stop, std::span<Answer> answers);
+struct Kernels {
+  BundleVerdicts (*bundles)(const WideTree& tree, std::span<const Ray> rays, size_t leaves_a_ray,
+                            const StopFlag& stop, std::span<Answer> answers);
+  size_t (*stream)(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop,
+                   std::span<Answer> answers);
+  size_t leaves_a_ray;  // of a bundle, before it is given up
+};
 
 // Calls trace_alone(ray, answer) for what the stream leaves. Returns how many the stream answered.
 template <class Answer, class TraceAlone>
 size_t trace_without_bundles(const WideTree* tree, std::span<const Ray> rays, const StopFlag& stop,
-                             std::span<Answer> answers, StreamFunction<Answer> stream,
+                             std::span<Answer> answers, const Kernels<Answer>& kernels,
                              const TraceAlone& trace_alone) {
-  const bool pays = tree && tree->expected_steps < most_steps_in_stream;
+  const bool pays = tree && streams_pay(*tree);
   size_t first = 0, streamed = 0;
   while (first < rays.size()) {
     if (pays && rays.size() - first >= least_stream) {
-      const size_t done = stream(*tree, rays.subspan(first), stop, answers.subspan(first));
+      const size_t done = kernels.stream(*tree, rays.subspan(first), stop, answers.subspan(first));
       streamed += done;
       first += done;
     }
@@ -52,62 +64,64 @@ size_t trace_without_bundles(const WideTree* tree, std::span<const Ray> rays, co
   return streamed;
 }
 
+// Bundles first. Returns how many rays were answered by kernels, not by trace_alone.
+template <class Answer, class TraceAlone>
+size_t trace_many(const WideTree* tree, std::span<const Ray> rays, const StopFlag& stop,
+                  std::span<Answer> answers, const Kernels<Answer>& kernels, BundleTries& tries,
+                  const TraceAlone& trace_alone) {
+  size_t answered = 0;
+  size_t rest = 0;  // from here on rays are unanswered
+  const auto trace_rest = [&](size_t end) {
+    answered += trace_without_bundles(tree, rays.subspan(rest, end - rest), stop,
+                                      answers.subspan(rest, end - rest), kernels, trace_alone);
+    rest = end;
+  };
+  const size_t last = tree ? rays_for_bundles(rays.size()) : 0;
+  for (size_t first = 0; first < last; first += rays_under_way) {
+    if (stop.requested() || tries.skips_next()) continue;
+    const size_t count = std::min(rays_under_way, last - first);
+    const BundleVerdicts verdicts =
+        kernels.bundles(*tree, rays.subspan(first, count), kernels.leaves_a_ray, stop,
+                        answers.subspan(first, count));
+    if (verdicts.given_up != 0) tries.note_failure();
+    if (verdicts.answered != 0) tries.note_success();
+    for (uint32_t bits = verdicts.answered; bits != 0; bits &= bits - 1) {
+      trace_rest(first + static_cast<size_t>(std::countr_zero(bits)) * bundle_size);
+      const size_t end = std::min(rest + bundle_size, last);
+      answered += end - rest;
+      rest = end;
+    }
+  }
+  trace_rest(rays.size());
+  return answered;
+}
+
 }  // namespace
+
+void BundleTries::note_failure() {
+  failures_ = std::min(failures_ + 1, most_failures);
+  to_skip_ = (1u << failures_) - 1;
+}
+
+void BundleTries::note_success() {
+  failures_ = to_skip_ = 0;
+}
 
 void RayCaster::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) {
   assert(rays.size() == hits.size());
-  const auto trace_rest = [&](size_t begin, size_t end) {
-    const size_t streamed =
-        trace_without_bundles(accel_.wide.get(), rays.subspan(begin, end - begin), stop_,
-                              hits.subspan(begin, end - begin), closest_hits_stream,
-                              [this](const Ray& ray, Hit& hit) { hit = closest_hit(ray); });
-    ray_count_ += streamed;
-  };
-  size_t unanswered = 0;  // from here on
-  for (size_t first = 0; first < rays.size();) {
-    const size_t end = bundle_end(first, rays.size());
-    const auto bundle = rays.subspan(first, end - first);
-    if (accel_.wide && may_share_origin(bundle) && !stop_.requested() &&
-        closest_hits_bundle(*accel_.wide, bundle, stop_, hits.subspan(first, end - first))) {
-      trace_rest(unanswered, first);
-      ray_count_ += bundle.size();
-      unanswered = end;
-    }
-    first = end;
-  }
-  trace_rest(unanswered, rays.size());
+  const bool has_time = accel_.wide && !streams_pay(*accel_.wide);
+  const Kernels<Hit> kernels{closest_hits_bundles, closest_hits_stream,
+                             has_time ? leaves_a_ray_before_single : leaves_a_ray_before_stream};
+  ray_count_ += trace_many(accel_.wide.get(), rays, stop_, hits, kernels, hit_tries_,
+                           [this](const Ray& ray, Hit& hit) { hit = closest_hit(ray); });
 }
 
 void RayCaster::occluded(std::span<const Ray> rays, std::span<uint8_t> is_occluded) {
   assert(rays.size() == is_occluded.size());
-  const auto trace_rest = [&](size_t begin, size_t end) {
-    const size_t streamed = trace_without_bundles(
-        accel_.wide.get(), rays.subspan(begin, end - begin), stop_,
-        is_occluded.subspan(begin, end - begin), occluded_stream,
-        [this](const Ray& ray, uint8_t& answer) { answer = occluded(ray) ? 1 : 0; });
-    ray_count_ += streamed;
-  };
-  size_t unanswered = 0;                     // from here on
-  size_t failures = 0, bundles_to_skip = 0;  // where bundles don't pay, few are tried
-  for (size_t first = 0; first < rays.size();) {
-    const size_t end = bundle_end(first, rays.size());
-    const auto bundle = rays.subspan(first, end - first);
-    if (bundles_to_skip > 0) {
-      --bundles_to_skip;
-    } else if (accel_.wide && bundle.size() >= least_bundle && !stop_.requested() &&
-               occluded_bundle(*accel_.wide, bundle, stop_,
-                               is_occluded.subspan(first, end - first))) {
-      trace_rest(unanswered, first);
-      ray_count_ += bundle.size();
-      unanswered = end;
-      failures = 0;
-    } else {
-      bundles_to_skip = (size_t{1} << failures) - 1;
-      failures = std::min(failures + 1, most_failures);
-    }
-    first = end;
-  }
-  trace_rest(unanswered, rays.size());
+  const Kernels<uint8_t> kernels{occluded_bundles, occluded_stream, leaves_a_ray_before_stream};
+  ray_count_ +=
+      trace_many(accel_.wide.get(), rays, stop_, is_occluded, kernels, occlusion_tries_,
+                 [this](const Ray& ray, uint8_t& answer) { answer = occluded(ray) ? 1 : 0; });
 }
 
 }  // namespace tracer

@@ -9,6 +9,8 @@
 #endif
 
 #include <algorithm>
+#include <bit>
+#include <type_traits>
 
 #include <hwy/highway.h>
 
@@ -21,20 +23,23 @@ namespace tracer {
 namespace HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
 
-bool ClosestHitsBundle(const WideTree&, std::span<const Ray>, const StopFlag&, std::span<Hit>) {
-  return false;
+BundleVerdicts ClosestHitsBundles(const WideTree&, std::span<const Ray>, size_t, const StopFlag&,
+                                  std::span<Hit>) {
+  return {};
 }
-bool OccludedBundle(const WideTree&, std::span<const Ray>, const StopFlag&, std::span<uint8_t>) {
-  return false;
+BundleVerdicts OccludedBundles(const WideTree&, std::span<const Ray>, size_t, const StopFlag&,
+                               std::span<uint8_t>) {
+  return {};
 }
 
 #else
 
-/// The depth at which the rays pass a side of a box: row * inverse + offset.
+/// The depth at which the rays pass a side of a box: (row - origin) * inverse + pad.
 struct BundlePlane {
   size_t row;
+  float origin;
   float inverse;
-  float offset;
+  float pad;
 };
 
 /// Between the greatest of `near` and the least of `far` depths, a ray may be in a box.
@@ -46,11 +51,11 @@ struct BundleSlabs {
 HWY_INLINE BundleSlabs make_slabs(const Bundle& bundle) {
   const size_t width = hn::Lanes(Floats());
   BundleSlabs slabs;
+  // Errors are relative to the depth; what underflows rounds absolutely.
   const auto plane = [&](size_t axis, size_t side, float inverse, float widening) {
-    const float offset = -(bundle.point[static_cast<int>(axis)] * inverse);
-    const float pad = (8 * u * bundle.reach + 4 * bundle.deviation) * std::abs(inverse);
-    return BundlePlane{(2 * axis + side) * width, inverse * widening,
-                       widening == 1 ? offset - pad : (offset + pad) * widening};
+    const float pad = 4 * bundle.deviation * std::abs(inverse) + FLT_MIN;
+    return BundlePlane{(2 * axis + side) * width, bundle.point[static_cast<int>(axis)],
+                       inverse * widening, widening == 1 ? -pad : pad * widening};
   };
   const auto near_plane = [&](size_t axis, size_t side, float slope) {
     return plane(axis, side, 1 / slope, 1);
@@ -84,14 +89,14 @@ HWY_INLINE BundleSlabs make_slabs(const Bundle& bundle) {
 }
 
 /// As push_children, for all rays: the nearest is popped first. `most`: the depth to stop at.
-HWY_INLINE StackEntry* push_bundle_children(const WideTree& tree, const float* HWY_RESTRICT node,
+HWY_INLINE StackEntry* push_bundle_children(const float* HWY_RESTRICT node,
                                             const BundleSlabs& slabs, float most,
                                             StackEntry* HWY_RESTRICT top) {
   const Floats d;
   const size_t width = hn::Lanes(d);
   const auto depth = [&](const BundlePlane& plane) {
-    return hn::MulAdd(hn::Load(d, node + plane.row), hn::Set(d, plane.inverse),
-                      hn::Set(d, plane.offset));
+    return hn::MulAdd(hn::Sub(hn::Load(d, node + plane.row), hn::Set(d, plane.origin)),
+                      hn::Set(d, plane.inverse), hn::Set(d, plane.pad));
   };
   const auto near_x = hn::Max(depth(slabs.near[0]), depth(slabs.near[1]));
   const auto near_y = hn::Max(depth(slabs.near[2]), depth(slabs.near[3]));
@@ -102,7 +107,6 @@ HWY_INLINE StackEntry* push_bundle_children(const WideTree& tree, const float* H
   const uint32_t hit_lanes = bits_of(hn::Le(near, far));
   if (hit_lanes == 0) return top;
   const auto* children = reinterpret_cast<const WideChild*>(node + 6 * width);
-  if (tree.is_larger_than_cache) prefetch(tree, children, hit_lanes);
   // The lane in the low bits makes depths unlike each other.
   const hn::RebindToUnsigned<Floats> du;
   const auto keys = hn::Or(hn::And(hn::BitCast(du, near), hn::Set(du, ~15u)), hn::Iota(du, 0));
@@ -118,37 +122,58 @@ HWY_INLINE StackEntry* push_bundle_children(const WideTree& tree, const float* H
   return nearest + 1;
 }
 
-/// One bundle on its way.
+/// One bundle on its way, a node or a leaf a step.
 template <Query query>
 class BundleTraversal {
  public:
-  BundleTraversal(const WideTree& tree, std::span<const Ray> rays, Bundle& bundle, Hit* hits,
-                  uint8_t* is_occluded)
-      : tree_(tree), rays_(rays), bundle_(bundle), hits_(hits), is_occluded_(is_occluded) {}
+  using Answer = std::conditional_t<query == Query::closest_hit, Hit, uint8_t>;
+  enum class State { under_way, answered, given_up };
 
-  /// False when it meets so many leaves that the rays had better be traced alone.
-  bool run(const StopFlag& stop) {
-    size_t leaf_budget = rays_.size() * (query == Query::closest_hit ? 32 : 1);
-    const size_t width = hn::Lanes(Floats());
-    const BundleSlabs slabs = make_slabs(bundle_);
-    const float* const nodes = tree_.nodes.row(0);
-    StackEntry stack[stack_capacity];
-    StackEntry* top = stack;
-    *top++ = {WideChild::node(0), 0};
+  /// False where the rays make no bundle.
+  bool start(const WideTree& tree, std::span<const Ray> rays, size_t leaves_a_ray,
+             std::span<Answer> answers) {
+    const bool is_bundle = query == Query::closest_hit ? gather_from_origin(tree, rays, bundle_)
+                                                       : gather_from_end(tree, rays, bundle_);
+    if (!is_bundle) return false;
+    tree_ = &tree;
+    rays_ = rays;
+    answers_ = answers.data();
+    std::ranges::fill(answers, Answer{});
+    slabs_ = make_slabs(bundle_);
+    leaf_budget_ = leaves_a_ray * rays.size();
     find_most();
-    while (top != stack) {
-      const StackEntry current = *--top;
-      if (std::bit_cast<float>(current.entry) > most_) continue;
-      if (current.child.is_leaf()) {
-        if (stop.requested()) return true;
-        if (leaf_budget-- == 0) return false;
-        meet_leaf(current.child.index(), stop);
-      } else {
-        const float* node = nodes + current.child.index() * (WideTree::rows_a_node * width);
-        top = push_bundle_children(tree_, node, slabs, most_, top);
+    current_ = {WideChild::node(0), 0};
+    top_ = stack_;
+    return true;
+  }
+
+  State step(const StopFlag& stop) {
+    if (current_.child.is_leaf()) {
+      if (stop.requested()) return State::answered;
+      if (leaf_budget_-- == 0) return State::given_up;
+      meet_leaf(current_.child.index(), stop);
+    } else {
+      const size_t width = hn::Lanes(Floats());
+      const float* node =
+          tree_->nodes.row(0) + current_.child.index() * (WideTree::rows_a_node * width);
+      top_ = push_bundle_children(node, slabs_, most_, top_);
+    }
+    do {
+      if (top_ == stack_) return State::answered;
+      current_ = *--top_;
+    } while (std::bit_cast<float>(current_.entry) > most_);
+    return State::under_way;
+  }
+
+  /// Asks for what the next step needs.
+  void fetch() const { prefetch(*tree_, &current_.child, 1); }
+
+  void finish() {
+    if constexpr (query == Query::closest_hit) {
+      for (size_t first = 0; first < rays_.size(); first += hn::Lanes(Doubles())) {
+        finish_winners(*tree_, rays_, bundle_, first, {answers_, rays_.size()});
       }
     }
-    return true;
   }
 
  private:
@@ -161,8 +186,8 @@ class BundleTraversal {
     const size_t width = hn::Lanes(Floats());
     for (size_t block = first_block;; ++block) {
       if ((block - first_block) % blocks_a_look == blocks_a_look - 1 && stop.requested()) return;
-      const WideTree::BlockInfo& info = tree_.block_infos[block];
-      const float* rows = tree_.blocks.row(0) + block * (WideTree::rows_a_block * width);
+      const WideTree::BlockInfo& info = tree_->block_infos[block];
+      const float* rows = tree_->blocks.row(0) + block * (WideTree::rows_a_block * width);
       BlockPlanes planes;
       find_planes(rows, bundle_, planes);
       const uint32_t filled = (2u << (info.count - 1)) - 1;
@@ -203,7 +228,7 @@ class BundleTraversal {
         hn::Store(hn::IfThenElse(met.certain, done, hn::Load(d, least)), d, least);
         hn::Store(hn::IfThenElse(met.certain, done, hn::Load(d, most)), d, most);
         for (uint32_t bits = certain; bits != 0; bits &= bits - 1) {
-          is_occluded_[first + static_cast<size_t>(std::countr_zero(bits))] = 1;
+          answers_[first + static_cast<size_t>(std::countr_zero(bits))] = 1;
         }
       }
     }
@@ -215,53 +240,88 @@ class BundleTraversal {
   void meet_exactly(size_t block, int lane, size_t ray) {
     const size_t width = hn::Lanes(Floats());
     if (ray >= bundle_.ray_count) return;
-    const float* v = tree_.blocks.row(0) + block * (WideTree::rows_a_block * width) + lane;
+    const float* v = tree_->blocks.row(0) + block * (WideTree::rows_a_block * width) + lane;
     const auto vertex = [&](size_t row) {
       return Vec3f(v[row * width], v[(row + 1) * width], v[(row + 2) * width]);
     };
     const auto found = intersect_triangle(rays_[ray], vertex(0), vertex(3), vertex(6));
     if (!found) return;
     if constexpr (query == Query::occluded) {
-      is_occluded_[ray] = 1;
+      answers_[ray] = 1;
       bundle_.least[ray] = bundle_.most[ray] = nothing_counts;
     } else {
       const Hit hit{found->t, found->u, found->v, std::bit_cast<uint32_t>(v[9 * width])};
-      if (hit.is_closer_than(hits_[ray])) hits_[ray] = hit;
+      if (hit.is_closer_than(answers_[ray])) answers_[ray] = hit;
       const float depth = static_cast<float>(hit.t) * bundle_.speed[ray];
       bundle_.least[ray] = std::min(bundle_.least[ray], depth * (1 - 8 * u) - FLT_MIN);
       bundle_.most[ray] = std::min(bundle_.most[ray], depth * (1 + 8 * u) + FLT_MIN);
     }
   }
 
-  const WideTree& tree_;
+  const WideTree* tree_;
   std::span<const Ray> rays_;
-  Bundle& bundle_;
-  Hit* hits_;  // of what was decided exactly; winners are not in it yet
-  uint8_t* is_occluded_;
-  float most_ = 0;
+  Answer* answers_;  // of closest hits, what was decided exactly; winners are not in it yet
+  Bundle bundle_;
+  BundleSlabs slabs_;
+  size_t leaf_budget_;
+  float most_;
+  StackEntry current_;
+  StackEntry* top_;
+  StackEntry stack_[stack_capacity];
 };
 
-// NOLINTBEGIN(misc-definitions-in-headers): each instruction set has a namespace of its own.
-bool ClosestHitsBundle(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop,
-                       std::span<Hit> hits) {
-  Bundle bundle;
-  if (!gather_from_origin(tree, rays, bundle)) return false;
-  std::ranges::fill(hits, Hit{});
-  if (!BundleTraversal<Query::closest_hit>(tree, rays, bundle, hits.data(), nullptr).run(stop))
+/// Where memory is waited for, a step of each bundle in turn, so that one waits while others work.
+template <Query query>
+BundleVerdicts answer_bundles(const WideTree& tree, std::span<const Ray> rays, size_t leaves_a_ray,
+                              const StopFlag& stop,
+                              std::span<typename BundleTraversal<query>::Answer> answers) {
+  using State = typename BundleTraversal<query>::State;
+  BundleTraversal<query> bundles[bundles_under_way];
+  uint32_t under_way = 0;
+  BundleVerdicts verdicts;
+  const auto run = [&](int i) {
+    const State state = bundles[i].step(stop);
+    if (state == State::under_way) return true;
+    if (state == State::answered) bundles[i].finish();
+    (state == State::answered ? verdicts.answered : verdicts.given_up) |= 1u << i;
     return false;
-  for (size_t first = 0; first < rays.size(); first += hn::Lanes(Doubles())) {
-    finish_winners(tree, rays, bundle, first, hits);
+  };
+  for (size_t first = 0; first < rays.size(); first += bundle_size) {
+    const size_t count = std::min(bundle_size, rays.size() - first);
+    const auto i = static_cast<int>(first / bundle_size);
+    if (!bundles[i].start(tree, rays.subspan(first, count), leaves_a_ray,
+                          answers.subspan(first, count))) {
+      continue;
+    }
+    if (tree.is_larger_than_cache) {
+      under_way |= 1u << i;
+    } else {
+      while (run(i)) {
+      }
+    }
   }
-  return true;
+  while (under_way != 0) {
+    for (uint32_t bits = under_way; bits != 0; bits &= bits - 1) {
+      const int i = std::countr_zero(bits);
+      if (run(i)) {
+        bundles[i].fetch();
+      } else {
+        under_way &= ~(1u << i);
+      }
+    }
+  }
+  return verdicts;
 }
 
-bool OccludedBundle(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop,
-                    std::span<uint8_t> is_occluded) {
-  Bundle bundle;
-  if (!gather_from_end(tree, rays, bundle)) return false;
-  std::ranges::fill(is_occluded, uint8_t{0});
-  return BundleTraversal<Query::occluded>(tree, rays, bundle, nullptr, is_occluded.data())
-      .run(stop);
+// NOLINTBEGIN(misc-definitions-in-headers): each instruction set has a namespace of its own.
+BundleVerdicts ClosestHitsBundles(const WideTree& tree, std::span<const Ray> rays,
+                                  size_t leaves_a_ray, const StopFlag& stop, std::span<Hit> hits) {
+  return answer_bundles<Query::closest_hit>(tree, rays, leaves_a_ray, stop, hits);
+}
+
+BundleVerdicts OccludedBundles(const WideTree& tree, std::span<const Ray> rays, size_t leaves_a_ray,
+                               const StopFlag& stop, std::span<uint8_t> is_occluded) {
+  return answer_bundles<Query::occluded>(tree, rays, leaves_a_ray, stop, is_occluded);
 }
 // NOLINTEND(misc-definitions-in-headers)
 

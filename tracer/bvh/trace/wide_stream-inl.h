@@ -146,6 +146,12 @@ class Stream {
       for (size_t row = 0; row < WideTree::rows_a_node; ++row) {
         hwy::Prefetch(rows + row * hn::Lanes(Floats()));
       }
+      // Blocks have more rows; a node's first is asked for again.
+      const size_t more = is_leaf ? WideTree::rows_a_node : 0;
+      for (size_t row = 0; row < WideTree::rows_a_block - WideTree::rows_a_node; ++row) {
+        hwy::Prefetch(rows + (more + row) * hn::Lanes(Floats()));
+      }
+      hwy::Prefetch(&tree_.block_infos[is_leaf ? child.index() : 0]);
     }
     const bool is_done = child.bits == no_child;
     at_node_.add_if(!is_leaf, index);

@@ -65,8 +65,7 @@ HWY_INLINE void prefetch(const WideTree& tree, const WideChild* children, uint32
     const size_t row_count = is_leaf ? WideTree::rows_a_block : WideTree::rows_a_node;
     const float* rows =
         (is_leaf ? tree.blocks : tree.nodes).row(0) + child.index() * row_count * width;
-    for (size_t line = 0; line < WideTree::rows_a_node * width; line += 16)
-      hwy::Prefetch(rows + line);
+    for (size_t line = 0; line < row_count * width; line += 16) hwy::Prefetch(rows + line);
     if (is_leaf) hwy::Prefetch(&tree.block_infos[child.index()]);
   }
 }
