@@ -8,6 +8,7 @@
 #include "tracer/bvh/build/builders.h"
 #include "tracer/bvh/build/reference_sides.h"
 #include "tracer/bvh/build/split_bins.h"
+#include "tracer/bvh/build/subdivide.h"
 #include "tracer/bvh/build/tree_part.h"
 
 namespace tracer {
@@ -140,10 +141,8 @@ class SpatialSplitBuild {
     }
     part->nodes[0].bounds = range.bounds.boxes.box();
     const Children children = split(range, depth, *scratch);
-    parallel_invoke([&] { part->left = subtree(children[0], depth + 1); },
-                    [&] { part->right = subtree(children[1], depth + 1); });
-    // Tasks are skipped, without an exception here, once one elsewhere has thrown.
-    if (!part->left || !part->right) throw Cancelled{};
+    do_both([&] { part->left = subtree(children[0], depth + 1); },
+            [&] { part->right = subtree(children[1], depth + 1); });
     return part;
   }
 
