@@ -90,6 +90,7 @@ Status Session::State::status() {
     status.model = model->imported;
     status.load_seconds = model->seconds;
   }
+  status.builder = tree.accel ? tree.key.builder : nullptr;
   status.tree = tree.metrics;
   status.tree_bytes = tree.accel ? tree.bytes() : 0;
   status.tree_quality = quality_meter.quality();

@@ -95,6 +95,29 @@ TEST_F(SessionTest, the_tree_in_use_is_measured_once_its_picture_is_left_alone) 
   EXPECT_FALSE(status_.tree_quality.has_value());
 }
 
+TEST_F(SessionTest, overlap_is_charged_at_the_costs_of_the_settings) {
+  edits_.improve = false;
+  ASSERT_TRUE(show(ball("ball.obj", 24)));
+  ASSERT_TRUE(wait_until([this] { return status_.tree_quality.has_value(); }));
+  const double epo = status_.tree_quality->epo.value;
+  edits_.build.traversal_cost *= 2;
+  edits_.build.intersection_cost *= 2;
+  session_->set(edits_);
+  ASSERT_TRUE(wait_until(
+      [&] { return status_.tree.costs.traversal == 2 && status_.tree_quality.has_value(); }));
+  EXPECT_DOUBLE_EQ(status_.tree_quality->epo.value, 2 * epo);
+}
+
+TEST_F(SessionTest, tells_whose_tree_is_in_use) {
+  edits_.builder = tracer::find_builder("morton");
+  ASSERT_TRUE(show(ball("ball.obj", 12)));
+  EXPECT_EQ(status_.builder, edits_.builder);
+  edits_.builder = nullptr;
+  session_->set(edits_);
+  ASSERT_TRUE(wait_until([this] { return status_.tree.node_count == 0; }));
+  EXPECT_EQ(status_.builder, nullptr);
+}
+
 TEST_F(SessionTest, the_tree_is_not_measured_while_the_user_is_at_work) {
   ASSERT_TRUE(show(ball("ball.obj", 24)));
   edits_.build.leaf_size = 2;
