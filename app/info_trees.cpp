@@ -52,6 +52,12 @@ struct Row {
   std::string note = {};
 };
 
+// The costs that SAH and EPO charge.
+std::string cost_note(const Json& tree) {
+  return fmt::format("{} a node, {} a triangle", tree["sah_traversal_cost"].get<double>(),
+                     tree["sah_intersection_cost"].get<double>());
+}
+
 // What the same number of another program may have been made of.
 std::string epo_note(const Json& trees) {
   const auto samples = [](const Json& tree) {
@@ -61,7 +67,8 @@ std::string epo_note(const Json& trees) {
   for (const Json& tree : trees) {
     if (samples(tree) > 0) least = least > 0 ? std::min(least, samples(tree)) : samples(tree);
   }
-  return least > 0 ? fmt::format("from {} triangles and more", least) : "of all triangles";
+  return cost_note(trees.front()) +
+         (least > 0 ? fmt::format(", from {} triangles and more", least) : ", of all triangles");
 }
 
 std::vector<Row> rows_for(const Json& trees) {
@@ -73,9 +80,7 @@ std::vector<Row> rows_for(const Json& trees) {
           {"depth", "depth", count},
           {"largest leaf", "largest_leaf", count, "triangles"},
           {"tree", "tree_bytes", megabytes, "that rays are traced through"},
-          {"SAH cost", "sah_cost", three_digits,
-           fmt::format("{} a node, {} a triangle", first["sah_traversal_cost"].get<double>(),
-                       first["sah_intersection_cost"].get<double>())},
+          {"SAH cost", "sah_cost", three_digits, cost_note(first)},
           {"EPO", "epo", three_digits, epo_note(trees)},
           {"LCV", "lcv", three_digits, fmt::format("from {} rays", count(first["lcv_rays"]))},
           {"Mray/s", "mrays_per_second", three_digits, "measured here"}};

@@ -2,31 +2,12 @@
 #include "app/render_passes.h"
 
 #include <atomic>
-#include <condition_variable>
-#include <mutex>
-#include <thread>
 
+#include "app/alarm.h"
 #include "app/stopwatch.h"
 
 namespace app {
 namespace {
-
-// Requests the flag when the time has come, unless it goes out of scope before.
-class Deadline {
- public:
-  Deadline(double seconds, tracer::StopFlag& flag)
-      : waiting_([seconds, &flag](const std::stop_token& stop) {
-          std::mutex mutex;
-          std::unique_lock lock(mutex);
-          std::condition_variable_any ended;
-          ended.wait_for(lock, stop, std::chrono::duration<double>(seconds),
-                         [&] { return stop.stop_requested(); });
-          if (!stop.stop_requested()) flag.request();
-        }) {}
-
- private:
-  std::jthread waiting_;
-};
 
 // Part of the whole job, from the samples or the time that is asked for.
 class RenderProgress {
@@ -73,8 +54,8 @@ RenderedPasses render_passes(const tracer::World& world, const RenderOptions& op
                              tracer::Progress& progress) {
   RenderedPasses result;
   const Stopwatch stopwatch;
-  std::optional<Deadline> deadline;
-  if (options.seconds) deadline.emplace(*options.seconds, stop);
+  Alarm deadline([&stop] { stop.request(); });
+  if (options.seconds) deadline.set(*options.seconds);
   const auto limit = static_cast<uint32_t>(options.sample_count.value_or(default_sample_count));
   RenderProgress shown(options, film.size_px(), progress);
   for (tracer::Pass pass = tracer::first_pass; options.seconds || pass.sample < limit;

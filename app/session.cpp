@@ -1,90 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "app/session.h"
 
-#include <atomic>
-#include <condition_variable>
-#include <exception>
-#include <mutex>
-#include <new>
-#include <optional>
-#include <thread>
 #include <utility>
 
 #include "app/session_changes.h"
-#include "app/session_jobs.h"
-#include "app/session_quality.h"
-#include "app/session_renderer.h"
-#include "tracer/base/freed_memory.h"
-#include "tracer/base/low_priority.h"
+#include "app/session_state.h"
 
 namespace app {
-namespace {
-
-enum class JobKind { none, load, shade, build, improve };
-
-/// The job in flight.
-struct Job {
-  JobKind kind = JobKind::none;
-  std::string path;  // of a load
-  TreeKey key;       // of a build
-  std::shared_ptr<tracer::Progress> progress;
-};
-
-TreeKey tree_key_of(const Edits& edits) {
-  return {edits.builder, edits.layout, edits.build};
-}
-
-}  // namespace
-
-/// One mutex guards all of it; it is held for moments, never while a job or a pass runs.
-struct Session::State {
-  explicit State(std::function<void()> wake_function);
-  ~State();
-
-  void run_jobs();
-  void load(std::unique_lock<std::mutex>& lock);
-  void shade(std::unique_lock<std::mutex>& lock);
-  void build(std::unique_lock<std::mutex>& lock);
-  void improve(std::unique_lock<std::mutex>& lock);
-  std::shared_ptr<tracer::Progress> begin_job(JobKind kind, std::string path);
-  void end_job();
-  void set_error(std::string text);
-
-  void use_tree(BuiltTree built);
-
-  bool wants_shading() const;
-  bool wants_tree() const;
-  bool is_wanted(const BuiltTree& built) const;
-  bool wants_improvement();
-  bool has_idle_tree() const;
-  void let_go_of_tree(std::unique_lock<std::mutex>& lock);
-  bool is_edited_model() const { return model && edits.model_generation == model->generation; }
-  std::shared_ptr<const tracer::World> make_world() const;
-  void restart_picture();
-  void post_news();
-  Status status();
-
-  std::function<void()> wake;
-  std::atomic<bool> has_news{false};
-  SessionRenderer renderer;
-  QualityMeter quality_meter;
-
-  std::mutex mutex;
-  std::condition_variable changed;
-  bool is_quitting = false;
-  Edits edits;
-  std::optional<std::filesystem::path> open_request;
-  Job job;
-  std::string error;
-  uint64_t error_generation = 0;
-  std::optional<LoadedModel> model;
-  BuiltTree tree;                     // over the model
-  std::optional<BuiltTree> off_tree;  // the one that was in use when the BVH was switched off
-  std::optional<TreeKey> declined;    // cancelled by the user
-  uint64_t generation = 0;
-
-  std::thread job_thread;
-};
 
 Session::State::State(std::function<void()> wake_function)
     : wake(std::move(wake_function)),
@@ -106,37 +28,17 @@ void Session::State::post_news() {
   if (!has_news.exchange(true)) wake();
 }
 
-void Session::State::run_jobs() {
-  tracer::lower_priority(tracer::Priority::background);  // the window comes first
-  std::unique_lock lock(mutex);
-  while (!is_quitting) {
-    if (open_request) {
-      load(lock);
-    } else if (wants_shading()) {
-      shade(lock);
-    } else if (wants_tree()) {
-      build(lock);
-    } else if (wants_improvement()) {
-      improve(lock);
-    } else if (has_idle_tree()) {
-      let_go_of_tree(lock);
-    } else {
-      changed.wait(lock);
-    }
-  }
-}
-
 bool Session::State::wants_shading() const {
   return is_edited_model() && model->scene->shading != edits.shading;
 }
 
 bool Session::State::wants_tree() const {
-  return model && !is_wanted(tree) && !(declined && is_same_tree(tree_key_of(edits), *declined));
+  return model && !is_wanted(tree) && !(declined && is_same_tree(wanted_key(), *declined));
 }
 
 // Whoever switches improvement off wants the tree as it was built; on, one that can be improved.
 bool Session::State::is_wanted(const BuiltTree& built) const {
-  if (!is_same_tree(tree_key_of(edits), built.key)) return false;
+  if (!is_same_tree(wanted_key(), built.key)) return false;
   if (!built.accel->has_tree()) return true;
   return edits.improve ? built.may_improve() || built.improvement.is_over
                        : built.improvement.rounds == 0;
@@ -149,142 +51,6 @@ bool Session::State::wants_improvement() {
 
 bool Session::State::has_idle_tree() const {
   return tree.tree && !(edits.improve && tree.may_improve());
-}
-
-void Session::State::let_go_of_tree(std::unique_lock<std::mutex>& lock) {
-  auto idle = std::exchange(tree.tree, nullptr);
-  const bool was_improved = tree.improvement.is_over;
-  lock.unlock();
-  idle.reset();
-  // After a mere build another may follow soon, which is quicker in memory that is there.
-  if (was_improved) tracer::give_back_freed_memory();
-  lock.lock();
-  post_news();
-}
-
-std::shared_ptr<tracer::Progress> Session::State::begin_job(JobKind kind, std::string path) {
-  job = {kind, std::move(path), tree_key_of(edits), std::make_shared<tracer::Progress>()};
-  post_news();
-  return job.progress;
-}
-
-void Session::State::end_job() {
-  job = {};
-  post_news();
-}
-
-void Session::State::set_error(std::string text) {
-  error = std::move(text);
-  ++error_generation;
-}
-
-void Session::State::load(std::unique_lock<std::mutex>& lock) {
-  const std::filesystem::path path = *std::exchange(open_request, std::nullopt);
-  error.clear();
-  const auto progress = begin_job(JobKind::load, path.string());
-  const TreeKey key = job.key;
-  const bool is_reload = model && model->path == path.string();
-  const tracer::Shading shading = edits.shading;
-  lock.unlock();
-
-  std::optional<LoadedModel> loaded;
-  BuiltTree built;
-  std::string failure;
-  try {
-    LoadedModel result = load_model(path, *progress);
-    if (is_reload) {
-      result.scene = std::make_shared<const tracer::Scene>(with_shading(*result.scene, shading));
-    }
-    built = build_tree(result.scene->mesh, key, *progress);
-    loaded = std::move(result);
-  } catch (const tracer::Cancelled&) {
-  } catch (const std::bad_alloc&) {
-    failure = path.string() + ": needs more memory than there is";
-  } catch (const std::exception& exception) {
-    failure = exception.what();
-  }
-
-  lock.lock();
-  if (!failure.empty()) set_error(failure);
-  if (loaded && !progress->stop_requested()) {
-    model = std::move(loaded);
-    model->generation = ++generation;
-    use_tree(std::move(built));
-    off_tree.reset();
-    declined.reset();
-  }
-  end_job();
-}
-
-void Session::State::shade(std::unique_lock<std::mutex>& lock) {
-  const auto progress = begin_job(JobKind::shade, {});
-  progress->start_stage("computing normals");
-  const tracer::Shading shading = edits.shading;
-  const std::shared_ptr<const tracer::Scene> before = model->scene;
-  lock.unlock();
-  auto scene = std::make_shared<const tracer::Scene>(with_shading(*before, shading));
-  lock.lock();
-  model->scene = std::move(scene);
-  if (is_edited_model()) restart_picture();
-  end_job();
-}
-
-void Session::State::build(std::unique_lock<std::mutex>& lock) {
-  const auto progress = begin_job(JobKind::build, {});
-  const TreeKey key = job.key;
-  const auto mesh = model->scene->mesh;
-  std::optional<BuiltTree> built;
-  if (off_tree && is_wanted(*off_tree)) built = off_tree;
-  lock.unlock();
-
-  std::string failure;
-  try {
-    if (!built) built = build_tree(mesh, key, *progress);
-  } catch (const tracer::Cancelled&) {
-  } catch (const std::exception& exception) {
-    failure = std::string("the tree cannot be built: ") + exception.what();
-  }
-
-  lock.lock();
-  if (!failure.empty()) {
-    set_error(failure);
-    declined = key;
-  }
-  if (built) {
-    off_tree.reset();
-    if (key.builder == nullptr) off_tree = std::move(tree);
-    use_tree(std::move(*built));
-    if (is_edited_model()) renderer.resume_with(make_world());
-  }
-  end_job();
-}
-
-void Session::State::use_tree(BuiltTree built) {
-  tree = std::move(built);
-  quality_meter.set(tree.measurement);
-}
-
-void Session::State::improve(std::unique_lock<std::mutex>& lock) {
-  const auto progress = begin_job(JobKind::improve, {});
-  const BuiltTree before = tree;
-  lock.unlock();
-
-  std::optional<BuiltTree> improved;
-  try {
-    improved = improve_tree(before, *progress);
-  } catch (const tracer::Cancelled&) {
-  } catch (const std::exception&) {
-    improved = before;  // short of memory, the tree stays as it is
-    improved->improvement.is_over = true;
-  }
-
-  lock.lock();
-  if (improved && !progress->stop_requested()) {
-    const bool is_better = improved->accel != before.accel;
-    use_tree(std::move(*improved));
-    if (is_better && is_edited_model()) renderer.resume_with(make_world());
-  }
-  end_job();
 }
 
 std::shared_ptr<const tracer::World> Session::State::make_world() const {
@@ -324,6 +90,7 @@ Status Session::State::status() {
     status.model = model->imported;
     status.load_seconds = model->seconds;
   }
+  status.builder = tree.accel ? tree.key.builder : nullptr;
   status.tree = tree.metrics;
   status.tree_bytes = tree.accel ? tree.bytes() : 0;
   status.tree_quality = quality_meter.quality();
@@ -372,7 +139,7 @@ void Session::set(const Edits& edits) {
     if (needs_tree) state_->declined.reset();
     if (needs_picture && state_->is_edited_model()) state_->restart_picture();
     const Job& job = state_->job;
-    if (job.kind == JobKind::build && !is_same_tree(job.key, tree_key_of(edits))) {
+    if (job.kind == JobKind::build && !is_same_tree(job.key, state_->wanted_key())) {
       job.progress->request_stop();
     }
     if (job.kind == JobKind::improve &&

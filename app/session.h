@@ -53,7 +53,8 @@ struct Status {
   std::string model_path;         // empty: none yet
   uint64_t model_generation = 0;  // grows with every model that replaces another
   std::shared_ptr<const tracer::ImportedScene> model;
-  tracer::TreeMetrics tree;  // of the tree in use; nodes 0 when the BVH is off
+  const tracer::Builder* builder = nullptr;  // of the tree in use; nullptr when the BVH is off
+  tracer::TreeMetrics tree;                  // of the same tree; nodes 0 when there is none
   std::optional<tracer::TreeQuality> tree_quality;  // of the same tree, when it is known
   // Held for the tree in use, beside the mesh: what is traced, and until it is improved and
   // measured the binary tree that it was made of.

@@ -16,14 +16,15 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void put(BuiltTree& built, BuiltAccel made) {
+// `metrics` are those of the tree that was laid out.
+void put(BuiltTree& built, BuiltAccel made, tracer::TreeMetrics metrics) {
   built.accel = std::move(made.accel);
   built.tree = std::move(made.tree);
   built.held_tree = built.tree;
   if (!built.tree) return;
-  built.metrics = measure(*built.tree, sah_costs(built.key.settings));
-  built.measurement =
-      std::make_shared<QualityMeasurement>(QualityMeasurement{built.accel->mesh, built.tree});
+  built.metrics = std::move(metrics);
+  built.measurement = std::make_shared<QualityMeasurement>(
+      QualityMeasurement{built.accel->mesh, built.tree, built.metrics.costs});
 }
 
 }  // namespace
@@ -46,7 +47,8 @@ BuiltTree build_tree(const std::shared_ptr<const tracer::Mesh>& mesh, const Tree
   const auto start = Clock::now();
   BuiltAccel made = build_accel(mesh, key, progress);
   if (made.tree) built.seconds = seconds_since(start);
-  put(built, std::move(made));
+  auto metrics = made.tree ? measure(*made.tree, sah_costs(key.settings)) : tracer::TreeMetrics{};
+  put(built, std::move(made), std::move(metrics));
   built.improvement.first_sah_cost = built.metrics.sah_cost;
   progress.throw_if_stopped();
   return built;
@@ -54,15 +56,15 @@ BuiltTree build_tree(const std::shared_ptr<const tracer::Mesh>& mesh, const Tree
 
 BuiltTree improve_tree(const BuiltTree& built, tracer::Progress& progress) {
   constexpr double least_gain = 0.001;
-  const tracer::SahCosts costs = sah_costs(built.key.settings);
   BuiltTree improved = built;
   tracer::run_at_low_priority([&] {
     progress.start_stage("improving the tree");
     tracer::BvhTree tree = reinsert(*built.tree, built.key.settings, progress);
-    improved.improvement.is_over =
-        !(measure(tree, costs).sah_cost < (1 - least_gain) * built.metrics.sah_cost);
+    tracer::TreeMetrics metrics = measure(tree, built.metrics.costs);
+    improved.improvement.is_over = !(metrics.sah_cost < (1 - least_gain) * built.metrics.sah_cost);
     if (improved.improvement.is_over) return;
-    put(improved, lay_out(built.accel->mesh, std::move(tree), *built.key.layout, progress));
+    put(improved, lay_out(built.accel->mesh, std::move(tree), *built.key.layout, progress),
+        std::move(metrics));
     ++improved.improvement.rounds;
   });
   return improved;

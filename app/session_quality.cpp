@@ -75,7 +75,7 @@ void QualityMeter::measure(std::unique_lock<std::mutex>& lock) {
   std::optional<tracer::TreeQuality> measured;
   try {
     tracer::on_one_thread([&] {
-      measured = measure_quality(*tree, *measurement->mesh, tracer::SahCosts{}, *progress);
+      measured = measure_quality(*tree, *measurement->mesh, measurement->costs, *progress);
     });
   } catch (const tracer::Cancelled&) {
   } catch (const std::bad_alloc&) {

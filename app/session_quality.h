@@ -20,6 +20,7 @@ namespace app {
 struct QualityMeasurement {
   std::shared_ptr<const tracer::Mesh> mesh;
   std::shared_ptr<const tracer::BvhTree> tree;
+  tracer::SahCosts costs;
   std::optional<tracer::TreeQuality> quality{};
 };
 

@@ -10,7 +10,7 @@
 #include <optional>
 #include <thread>
 
-#include "app/session_alarm.h"
+#include "app/alarm.h"
 #include "app/session_rates.h"
 #include "app/session_tiles.h"
 #include "tracer/render/render.h"

@@ -15,18 +15,29 @@ FileWatch::Stamp FileWatch::stamp_of(const std::filesystem::path& path) {
 }
 
 void FileWatch::watch(const std::filesystem::path& path) {
-  path_ = path;
-  known_ = seen_ = stamp_of(path);
+  files_.clear();
+  add(path);
+}
+
+void FileWatch::add(const std::filesystem::path& path) {
+  const Stamp stamp = stamp_of(path);
+  files_.push_back({path, stamp, stamp});
 }
 
 bool FileWatch::has_changed(double now_seconds) {
-  if (path_.empty() || now_seconds < next_look_seconds_) return false;
+  if (files_.empty() || now_seconds < next_look_seconds_) return false;
   next_look_seconds_ = now_seconds + 1;
-  const Stamp stamp = stamp_of(path_);
-  const bool is_settled = stamp == seen_;
-  seen_ = stamp;
-  if (!is_settled || stamp == known_ || stamp == Stamp{}) return false;
-  known_ = stamp;
+  bool has_any_changed = false;
+  for (File& file : files_) has_any_changed |= has_changed(file);
+  return has_any_changed;
+}
+
+bool FileWatch::has_changed(File& file) {
+  const Stamp stamp = stamp_of(file.path);
+  const bool is_settled = stamp == file.seen;
+  file.seen = stamp;
+  if (!is_settled || stamp == file.known || stamp == Stamp{}) return false;
+  file.known = stamp;
   return true;
 }
 

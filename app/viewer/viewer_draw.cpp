@@ -101,7 +101,7 @@ void Viewer::draw_panel(const Ui& ui) {
     ImGui::PopStyleColor();
     ui.layout.note_last_item("show-warnings");
   }
-  draw_settings(ui, settings_);
+  draw_settings(ui, settings_, status_.builder);
   answer_edits();
   draw_statistics(ui, status_, settings_.sample_limit);
   ImGui::End();

@@ -92,6 +92,7 @@ void Viewer::adopt_model() {
   }
   adopted_generation_ = status_.model_generation;
   adopted_path_ = status_.model_path;
+  for (const std::filesystem::path& file : model.files) file_watch_.add(file);
   are_warnings_shown_ = model.warnings.count() > 0;
   report_warnings(model);
 }

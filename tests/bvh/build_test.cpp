@@ -216,11 +216,13 @@ TEST(Builders, morton_parts_what_lies_in_one_cell_of_its_curve) {
   EXPECT_DOUBLE_EQ(measure(tree).sah_cost, alone);
 }
 
-TEST(Builders, binned_sah_of_few_primitives_is_the_full_sweep) {
+TEST(Builders, binned_trees_of_few_primitives_are_those_of_the_full_sweep) {
   for (uint32_t count = 1; count <= 32; ++count) {
     const auto boxes = primitive_boxes(random_soup(count, 0.5f, count));
     const double sweep = sah_cost("sweep-sah", boxes, {30, 1});
-    EXPECT_NEAR(sah_cost("binned-sah", boxes, {30, 1}), sweep, 1e-6 * sweep) << count;
+    for (const char* name : {"binned-sah", "spatial-split"}) {
+      EXPECT_NEAR(sah_cost(name, boxes, {30, 1}), sweep, 1e-6 * sweep) << name << ' ' << count;
+    }
   }
 }
 
@@ -243,7 +245,7 @@ uint64_t blocks_of_four(const BvhTree& tree) {
 
 TEST(Builders, sah_builders_fill_blocks_when_told_their_size) {
   const auto boxes = primitive_boxes(rough_ball(40, 0.02f, 1));
-  for (const char* name : {"binned-sah", "sweep-sah"}) {
+  for (const char* name : {"binned-sah", "sweep-sah", "spatial-split"}) {
     const Builder& builder = *find_builder(name);
     EXPECT_LT(blocks_of_four(build(builder, boxes, {.leaf_size = 8, .block_size = 4})),
               0.95 * static_cast<double>(blocks_of_four(build(builder, boxes, {.leaf_size = 8}))))
@@ -251,11 +253,21 @@ TEST(Builders, sah_builders_fill_blocks_when_told_their_size) {
   }
 }
 
-TEST(Builders, binned_sah_takes_any_number_of_bins) {
+TEST(Builders, those_that_bin_take_any_number_of_bins) {
   const auto boxes = primitive_boxes(random_soup(3000, 0.05f, 7));
-  for (const int bins : {-1, 0, 1, 2, 3, 63, 64, 65, 1 << 30}) {
-    EXPECT_EQ(validate(build(*find_builder("binned-sah"), boxes, {.bins = bins}), boxes, 30), "")
-        << bins;
+  for (const char* name : {"binned-sah", "spatial-split"}) {
+    for (const int bins : {-1, 0, 1, 2, 3, 63, 64, 65, 1 << 30}) {
+      EXPECT_EQ(validate(build(*find_builder(name), boxes, {.bins = bins}), boxes, 30), "")
+          << name << ' ' << bins;
+    }
+  }
+}
+
+TEST(Builders, those_that_bin_find_cheaper_trees_with_more_bins) {
+  const auto boxes = primitive_boxes(random_soup(3000, 0.05f, 7));
+  for (const char* name : {"binned-sah", "spatial-split"}) {
+    EXPECT_LT(sah_cost(name, boxes, {.bins = 64}), 0.98 * sah_cost(name, boxes, {.bins = 2}))
+        << name;
   }
 }
 

@@ -15,6 +15,12 @@ TEST(SplitCost, sides_are_limited_only_where_the_levels_left_just_suffice) {
   EXPECT_EQ(side_limit(5, 4, 64), 5u);
 }
 
+TEST(SplitCost, where_cuts_make_room_for_more_a_side_may_have_more) {
+  EXPECT_EQ(side_limit(8, 12, 4, 1), 4u);
+  EXPECT_EQ(side_limit(9, 12, 4, 1), 12u);
+  EXPECT_EQ(side_limit(5, 12, 4, 64), 12u);
+}
+
 TEST(SplitCost, blocks_are_rounded_up) {
   for (int size = 1; size <= 16; ++size) {
     const BlockCount block_count({.block_size = size});

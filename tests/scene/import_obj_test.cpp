@@ -108,6 +108,16 @@ TEST(ImportObj, libraries_are_read_in_order_and_the_first_definition_counts) {
   EXPECT_EQ(imported.scene.materials->at(2).diffuse, Vec3f(0, 0, 1));
 }
 
+TEST(ImportObj, tells_the_files_it_depends_on_also_those_that_are_missing) {
+  const TemporaryFolder folder;
+  folder.write("a.mtl", "newmtl m\nmap_Kd white.ppm\nnewmtl unused\nmap_Kd other.ppm\n");
+  const auto path =
+      folder.write("x.obj", "mtllib a.mtl no.mtl\n" + square + "usemtl m\n" + textured_face);
+  const std::vector<std::filesystem::path> expected{folder / "a.mtl", folder / "no.mtl",
+                                                    folder / "white.ppm"};
+  EXPECT_EQ(import(path).files, expected);
+}
+
 TEST(ImportObj, paths_that_leave_the_models_folder_are_refused) {
   const TemporaryFolder folder;
   folder.write("secret.mtl", "newmtl m\nKd 1 0 0\n");

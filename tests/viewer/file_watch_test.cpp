@@ -30,5 +30,20 @@ TEST(FileWatch, a_file_that_was_missing_counts_when_it_appears) {
   EXPECT_TRUE(watch.has_changed(3));
 }
 
+TEST(FileWatch, a_change_of_any_file_counts_and_others_are_forgotten) {
+  const tracer::TemporaryFolder folder;
+  const auto path = folder.write("ball.obj", "mtllib ball.mtl\n");
+  FileWatch watch;
+  watch.watch(path);
+  watch.add(folder.write("ball.mtl", "newmtl red\n"));
+  folder.write("ball.mtl", "newmtl red\nKd 1 0 0\n");
+  EXPECT_FALSE(watch.has_changed(1));
+  EXPECT_TRUE(watch.has_changed(2));
+  watch.watch(path);
+  folder.write("ball.mtl", "newmtl blue\n");
+  EXPECT_FALSE(watch.has_changed(3));
+  EXPECT_FALSE(watch.has_changed(4));
+}
+
 }  // namespace
 }  // namespace app

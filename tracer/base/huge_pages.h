@@ -9,4 +9,8 @@ namespace tracer {
 /// a fraction of the time. Never fails: where there are none, nothing changes.
 void prefer_huge_pages(void* memory, size_t size_bytes);
 
+/// At least `size_bytes`, uninitialised, at a multiple of 64, and where that is much in whole large
+/// pages; std::free() frees it. Throws std::bad_alloc.
+void* allocate_in_huge_pages(size_t size_bytes);
+
 }  // namespace tracer

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdlib>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -19,11 +20,8 @@ struct LargeAllocator : std::allocator<T> {
     using other = LargeAllocator<U>;
   };
 
-  T* allocate(size_t count) {
-    T* const elements = std::allocator<T>::allocate(count);
-    prefer_huge_pages(elements, count * sizeof(T));
-    return elements;
-  }
+  T* allocate(size_t count) { return static_cast<T*>(allocate_in_huge_pages(count * sizeof(T))); }
+  void deallocate(T* elements, size_t) { std::free(elements); }
 
   template <class U, class... Arguments>
   void construct(U* element, Arguments&&... arguments) {

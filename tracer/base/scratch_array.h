@@ -3,7 +3,6 @@
 
 #include <cstdlib>
 #include <memory>
-#include <new>
 #include <type_traits>
 
 #include "tracer/base/huge_pages.h"
@@ -16,10 +15,8 @@ requires std::is_trivially_destructible_v<T> && std::is_trivially_copyable_v<T>
 class ScratchArray {
  public:
   ScratchArray() = default;
-  explicit ScratchArray(size_t count) : data_(static_cast<T*>(std::malloc(count * sizeof(T)))) {
-    if (!data_ && count > 0) throw std::bad_alloc();
-    prefer_huge_pages(data_.get(), count * sizeof(T));
-  }
+  explicit ScratchArray(size_t count)
+      : data_(static_cast<T*>(allocate_in_huge_pages(count * sizeof(T)))) {}
 
   T* data() { return data_.get(); }
   const T* data() const { return data_.get(); }

@@ -37,7 +37,7 @@ void for_each_field(Settings& settings, F&& f) {
     Field<double>{"intersection-cost", 0.1, 10, "of a triangle, in the SAH cost that is shown",
                   Effect::rebuild});
   f(settings.bins,
-    Field<int>{"bins", 4, 64, "along each axis, for the binned SAH", Effect::rebuild});
+    Field<int>{"bins", 4, 64, "along each axis, where centres are binned", Effect::rebuild});
   f(settings.block_size,
     Field<int>{"block-size", 1, 16, "triangles the SAH counts as one", Effect::rebuild});
   f(settings.split_budget,

@@ -101,6 +101,7 @@ class MaterialImporter {
     if (!seen_libraries_.try_emplace(path->string(), true).second) return;
     progress_.throw_if_stopped();
     const std::string full_path = (model_folder_ / *path).string();
+    result_.files.emplace_back(full_path);
     try {
       const FileBytes text(full_path);
       MtlFile parsed = parse_mtl(text.bytes(), full_path);
@@ -157,7 +158,10 @@ class MaterialImporter {
     }
     const auto next = static_cast<uint32_t>(requests_.size());
     const auto [entry, is_new] = request_indices_.try_emplace(path->string(), next);
-    if (is_new) requests_.push_back({model_folder_ / *path, definition.library, line});
+    if (is_new) {
+      requests_.push_back({model_folder_ / *path, definition.library, line});
+      result_.files.push_back(requests_.back().path);
+    }
     return entry->second;
   }
 

@@ -14,8 +14,9 @@ namespace tracer {
 struct ImportedMaterials {
   std::vector<Material> materials;  // one a name in ObjFile::material_names
   std::vector<Texture> textures;
-  Warnings warnings;          // of the OBJ, in the order of its lines
-  Warnings library_warnings;  // of what it names
+  std::vector<std::filesystem::path> files;  // of both, those that cannot be read too
+  Warnings warnings;                         // of the OBJ, in the order of its lines
+  Warnings library_warnings;                 // of what it names
 };
 
 /// Reads the material libraries of the OBJ at `model_path` and, each once, the textures of the

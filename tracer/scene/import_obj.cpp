@@ -53,6 +53,7 @@ ImportedScene import_obj(const std::filesystem::path& path, Progress& progress) 
       path, file, find_textured_materials(made.mesh, file.material_names.size()), progress);
   result.warnings = merged_by_line(merged_by_line(file.warnings, made.warnings), imported.warnings);
   result.warnings.append(imported.library_warnings);
+  result.files = std::move(imported.files);
 
   Scene scene;
   scene.lights = std::make_shared<const EmissiveTriangles>(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "tracer/base/error.h"
 #include "tracer/base/progress.h"
@@ -19,6 +20,9 @@ struct ImportedScene {
   uint32_t object_count = 0;
   uint32_t group_count = 0;
   uint64_t file_bytes = 0;
+  // That the OBJ names and the scene depends on: material libraries and textures, those that cannot
+  // be read too.
+  std::vector<std::filesystem::path> files;
   Warnings warnings;
 };
 

@@ -14,13 +14,13 @@ namespace {
 constexpr int greatest_sample_limit = 65536;
 constexpr float brightest_slider = 5;
 
-/// A combo over a table of {name, label, what}.
+/// A combo over a table of {name, label, what}, which closed says `shown`.
 template <class Entry>
 void draw_choice(const Ui& ui, const char* label, const char* name, std::span<const Entry> entries,
-                 const Entry*& chosen) {
+                 const Entry*& chosen, const std::string& shown) {
   control_label(ui, label);
   const std::string id = std::string("##") + name;
-  const bool is_open = ImGui::BeginCombo(id.c_str(), std::string(chosen->label).c_str());
+  const bool is_open = ImGui::BeginCombo(id.c_str(), shown.c_str());
   if (!is_open) {
     finish_control(ui, name, std::string(chosen->what));
     return;
@@ -32,6 +32,12 @@ void draw_choice(const Ui& ui, const char* label, const char* name, std::span<co
     finish_control(ui, std::string(name) + ' ' + std::string(entry.name), std::string(entry.what));
   }
   ImGui::EndCombo();
+}
+
+template <class Entry>
+void draw_choice(const Ui& ui, const char* label, const char* name, std::span<const Entry> entries,
+                 const Entry*& chosen) {
+  draw_choice(ui, label, name, entries, chosen, std::string(chosen->label));
 }
 
 void draw_value(const char* id, int& value, const tracer::Field<int>& field) {
@@ -82,13 +88,23 @@ bool is_main_tree_setting(std::string_view name) {
   return name == "max-depth" || name == "leaf-size";
 }
 
-void draw_tree_settings(const Ui& ui, ViewerSettings& settings) {
+/// The chosen builder, unless a quicker one stands in for it.
+std::string shown_builder(const ViewerSettings& settings, const tracer::Builder* used) {
+  const bool is_stand_in =
+      used != nullptr && used != settings.builder && used == ViewerSettings::quick_builder();
+  if (!is_stand_in) return std::string(settings.builder->label);
+  return std::string(used->label.substr(0, used->label.find(','))) + " while dragging";
+}
+
+void draw_tree_settings(const Ui& ui, ViewerSettings& settings,
+                        const tracer::Builder* used_builder) {
   control_label(ui, "BVH");
   ImGui::Checkbox(settings.is_bvh_on ? "on##bvh" : "off: every triangle##bvh", &settings.is_bvh_on);
   finish_control(ui, "bvh",
                  "The tree over the triangles. Without it every ray meets every triangle; the "
                  "picture is the same to the last bit.");
-  draw_choice(ui, "Builder", "builder", tracer::builders(), settings.builder);
+  draw_choice(ui, "Builder", "builder", tracer::builders(), settings.builder,
+              shown_builder(settings, used_builder));
   draw_choice(ui, "Traversal", "layout", tracer::layouts(), settings.layout);
   settings.is_build_dragged = draw_fields(ui, settings.build, is_main_tree_setting);
   if (!closed_part(ui, "More")) return;
@@ -147,12 +163,12 @@ void ViewerSettings::set_sky(const tracer::Vec3d& radiance) {
 const tracer::Builder* ViewerSettings::builder_for(uint32_t triangle_count) const {
   constexpr uint32_t large = 20'000;
   if (!is_bvh_on) return nullptr;
-  return is_build_dragged && triangle_count > large ? tracer::find_builder("morton") : builder;
+  return is_build_dragged && triangle_count > large ? quick_builder() : builder;
 }
 
-void draw_settings(const Ui& ui, ViewerSettings& settings) {
+void draw_settings(const Ui& ui, ViewerSettings& settings, const tracer::Builder* used_builder) {
   settings.is_build_dragged = false;
-  if (section(ui, "Bounding volume hierarchy")) draw_tree_settings(ui, settings);
+  if (section(ui, "Bounding volume hierarchy")) draw_tree_settings(ui, settings, used_builder);
   if (section(ui, "Picture")) draw_picture_settings(ui, settings);
 }
 

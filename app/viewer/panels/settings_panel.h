@@ -24,13 +24,15 @@ struct ViewerSettings {
   UpAxis up = UpAxis::automatic;
 
   tracer::Vec3d sky() const { return tracer::Vec3d(sky_color) * double{sky_brightness}; }
-  /// nullptr while the BVH is off. For a large model whose settings are being dragged the quickest
-  /// one.
+  /// Answers while settings of a large model are being dragged.
+  static const tracer::Builder* quick_builder() { return tracer::find_builder("morton"); }
+  /// nullptr while the BVH is off.
   const tracer::Builder* builder_for(uint32_t triangle_count) const;
   void set_sky(const tracer::Vec3d& radiance);
 };
 
-/// The part of the panel that changes things.
-void draw_settings(const Ui& ui, ViewerSettings& settings);
+/// The part of the panel that changes things. `used_builder` is that of the tree in use: nullptr
+/// for none.
+void draw_settings(const Ui& ui, ViewerSettings& settings, const tracer::Builder* used_builder);
 
 }  // namespace app

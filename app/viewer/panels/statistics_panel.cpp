@@ -92,8 +92,11 @@ void draw_costs(const Ui& ui, const Status& status) {
       "line through the model is expected to meet. Lower is better.",
       tree.costs.traversal, tree.costs.intersection);
   const std::string epo_help = fmt::format(
-      "Effective primitive overlap: the cost of nodes that a point of the surface lies in though "
-      "its triangle is in none of their leaves, so work in vain. Lower is better. {}",
+      "Effective primitive overlap: the cost of nodes ({} each) and of their triangles ({} each) "
+      "that "
+      "a point of the surface lies in though its triangle is in none of their leaves, so work in "
+      "vain. Lower is better. {}",
+      tree.costs.traversal, tree.costs.intersection,
       quality.epo.sample_count > 0
           ? fmt::format("From {} points.", format_count(quality.epo.sample_count))
           : "Exact.");

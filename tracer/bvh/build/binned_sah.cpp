@@ -42,7 +42,6 @@ class BinnedBuild {
         count_(static_cast<uint32_t>(boxes_.size())),
         leaf_size_(std::max(settings.leaf_size, 1)),
         max_depth_(std::min(settings.max_depth, max_tree_depth)),
-        bin_count_(std::clamp(settings.bins, 2, max_bin_count)),
         settings_(settings),
         block_count_(settings),
         progress_(progress) {}
@@ -126,7 +125,7 @@ class BinnedBuild {
   }
 
   std::array<Part, 2> split(const Part& part) {
-    const Binning binning(part.half_centers, bin_count(part.range.count()));
+    const Binning binning(part.half_centers, bin_count_for(part.range.count(), settings_));
     if (!binning.parts_something()) return halve(part);
     const uint32_t count = chunk_count(part.range);
     if (count == 1) {
@@ -250,10 +249,6 @@ class BinnedBuild {
     return sides;
   }
 
-  int bin_count(uint32_t count) const {
-    return static_cast<int>(std::min<uint32_t>(static_cast<uint32_t>(bin_count_), 4 + count / 16));
-  }
-
   bool is_leaf(const Part& part) const {
     return part.depth >= max_depth_ || part.range.count() <= static_cast<uint32_t>(leaf_size_);
   }
@@ -271,7 +266,6 @@ class BinnedBuild {
   const uint32_t count_;
   const int leaf_size_;
   const int max_depth_;
-  const int bin_count_;
   const BuildSettings settings_;
   const BlockCount block_count_;
   Progress& progress_;

@@ -13,8 +13,6 @@
 
 namespace tracer {
 
-inline constexpr int max_bin_count = 64;
-
 /// Left are the bins below `bin` along `axis`.
 struct BinSplit {
   int axis = 0;

@@ -3,11 +3,15 @@
 #include <atomic>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 
 #include "tracer/base/parallel.h"
 #include "tracer/bvh/build/builders.h"
 #include "tracer/bvh/build/reference_sides.h"
+#include "tracer/bvh/build/small_sweep.h"
+#include "tracer/bvh/build/space_route.h"
 #include "tracer/bvh/build/split_bins.h"
+#include "tracer/bvh/build/subdivide.h"
 #include "tracer/bvh/build/tree_part.h"
 
 namespace tracer {
@@ -17,8 +21,7 @@ namespace {
 // root's area [Stich 2009] 4.1 and of their parent's: elsewhere it hardly ever pays.
 constexpr double least_overlap_of_root = 0x1p-17;
 constexpr double least_overlap_of_parent = 0.1;
-// Smaller sets become a block or two of triangles, for which a second copy costs more.
-constexpr uint32_t least_count_to_cut = 32;
+
 /// References in one of two buffers, and the positions that they and their parts may take.
 struct ReferenceRange {
   uint32_t region_begin;
@@ -31,51 +34,14 @@ struct ReferenceRange {
   uint32_t room() const { return region_end - region_begin; }
 };
 
-/// Cuts references at a plane, or leaves them whole where that costs less. [Stich 2009] 4.2, 4.4
-class SpaceRoute {
- public:
-  SpaceRoute(const SplitCandidate& split, float plane, const Primitives& primitives)
-      : split_(split), plane_(plane), primitives_(primitives) {}
-
-  template <class Sink>
-  void operator()(const Reference& reference, Sink& sink) const {
-    if (reference.max[split_.axis] <= plane_) return sink.to_left(reference);
-    if (reference.min[split_.axis] >= plane_) return sink.to_right(reference);
-    const Box4 box = reference.box();
-    const double cut = split_.cost;
-    const double left = cost_with(split_.left, box) + cost_without(split_.right);
-    const double right = cost_without(split_.left) + cost_with(split_.right, box);
-    if (left < cut && left <= right) return sink.to_left(reference);
-    if (right < cut) return sink.to_right(reference);
-    std::array<Box4, 2> parts;
-    primitives_.slice(reference.primitive, split_.axis, {&plane_, 1}, parts);
-    const Box left_part = intersection(parts[0], box).box();
-    const Box right_part = intersection(parts[1], box).box();
-    if (!left_part.is_empty()) sink.to_left({left_part, reference.primitive});
-    if (!right_part.is_empty()) sink.to_right({right_part, reference.primitive});
-  }
-
- private:
-  static double cost_with(const SplitSide& side, const Box4& box) {
-    Box4 bounds = side.bounds;
-    bounds.extend(box);
-    return bounds.half_area() * side.count;
-  }
-  static double cost_without(const SplitSide& side) {
-    return side.bounds.half_area() * (side.count - 1);
-  }
-
-  const SplitCandidate& split_;
-  const float plane_;
-  const Primitives& primitives_;
-};
-
 class SpatialSplitBuild {
  public:
   SpatialSplitBuild(const Primitives& primitives, const BuildSettings& settings, Progress& progress)
       : primitives_(primitives),
-        leaf_size_(static_cast<uint32_t>(std::max(settings.leaf_size, 1))),
+        settings_(settings),
+        leaf_size_(std::max(settings.leaf_size, 1)),
         max_depth_(std::min(settings.max_depth, max_tree_depth)),
+        block_count_(settings),
         progress_(progress) {
     const double budget = primitives.slice ? std::max(settings.split_budget, 0.0) : 0;
     const auto count = static_cast<double>(primitives.boxes.size());
@@ -91,6 +57,7 @@ class SpatialSplitBuild {
     if (primitives_.boxes.empty()) return {};
     const ReferenceRange all = all_references();
     root_area_ = all.bounds.boxes.half_area();
+    small_costs_.emplace(unit_scale(all.bounds.boxes.box()), settings_);
     const std::unique_ptr<TreePart> root = subtree(all, 0);
     return join(*root);
   }
@@ -140,10 +107,8 @@ class SpatialSplitBuild {
     }
     part->nodes[0].bounds = range.bounds.boxes.box();
     const Children children = split(range, depth, *scratch);
-    parallel_invoke([&] { part->left = subtree(children[0], depth + 1); },
-                    [&] { part->right = subtree(children[1], depth + 1); });
-    // Tasks are skipped, without an exception here, once one elsewhere has thrown.
-    if (!part->left || !part->right) throw Cancelled{};
+    do_both([&] { part->left = subtree(children[0], depth + 1); },
+            [&] { part->right = subtree(children[1], depth + 1); });
     return part;
   }
 
@@ -158,6 +123,7 @@ class SpatialSplitBuild {
       }
       return;
     }
+    if (range.count() <= SmallSweep::capacity) return sweep(part, node, range, depth);
     const Children children = split(range, depth, scratch);
     const size_t first = part.nodes.size();
     part.nodes[node] = {bounds, static_cast<uint32_t>(first), 0};
@@ -166,23 +132,28 @@ class SpatialSplitBuild {
     subdivide(part, first + 1, children[1], depth + 1, scratch);
   }
 
-  bool is_leaf(const ReferenceRange& range, int depth) const {
-    return depth >= max_depth_ || range.count() <= leaf_size_;
+  // So few become a block or two of triangles, for which a second copy of one costs more than it
+  // gains: none is cut.
+  void sweep(TreePart& part, size_t node, const ReferenceRange& range, int depth) {
+    const Box4 half_centers(0.5f * range.bounds.centers.min, 0.5f * range.bounds.centers.max);
+    const size_t first = part.primitives.size();
+    part.primitives.resize(first + range.count());
+    SmallSweep(references(range, depth), half_centers, *small_costs_)
+        .subdivide(part.nodes, static_cast<uint32_t>(node), max_depth_ - depth,
+                   static_cast<uint32_t>(first), part.primitives.data() + first);
   }
 
-  // So that the levels below can reach the leaf size; no limit where they cannot in any case.
-  SplitLimits limits_of(const ReferenceRange& range, int depth) const {
-    const uint64_t reach = uint64_t{leaf_size_} << std::min(max_depth_ - depth - 1, 32);
-    const uint64_t side = range.count() <= 2 * reach ? reach : range.room();
-    return {static_cast<uint32_t>(std::min<uint64_t>(side, range.room())), range.room()};
+  bool is_leaf(const ReferenceRange& range, int depth) const {
+    return depth >= max_depth_ || range.count() <= static_cast<uint32_t>(leaf_size_);
   }
 
   Children split(const ReferenceRange& range, int depth, Scratch& scratch) {
-    const SplitLimits limits = limits_of(range, depth);
-    const CenterGrid centers(range.bounds.centers, center_bin_count(range));
+    const SplitLimits limits{
+        side_limit(range.count(), range.room(), leaf_size_, max_depth_ - depth), range.room()};
+    const CenterGrid centers(range.bounds.centers, bin_count_for(range.count(), settings_));
     gather(scratch.centers, range, depth, centers.bin_count(),
            [&](CenterBins& into, std::span<const Reference> part) { into.add(part, centers); });
-    const SplitCandidate object = scratch.centers.best(centers, limits);
+    const SplitCandidate object = scratch.centers.best(centers, limits, block_count_);
     if (is_worth_cutting(range, object)) {
       const Children cut = cut_space(scratch.space, range, depth, limits, object);
       if (cut[0].count() > 0 && cut[1].count() > 0) return cut;
@@ -198,13 +169,8 @@ class SpatialSplitBuild {
     });
   }
 
-  static int center_bin_count(const ReferenceRange& range) {
-    return static_cast<int>(std::clamp(range.count() / 2, 8u, uint32_t{most_bins}));
-  }
-
   bool is_worth_cutting(const ReferenceRange& range, const SplitCandidate& object) const {
-    if (!primitives_.slice || range.count() < least_count_to_cut) return false;
-    if (range.room() == range.count()) return false;
+    if (!primitives_.slice || range.room() == range.count()) return false;
     if (!object.exists()) return true;
     const double overlap = intersection(object.left.bounds, object.right.bounds).half_area();
     return overlap > least_overlap_of_root * root_area_ &&
@@ -221,11 +187,11 @@ class SpatialSplitBuild {
              grid.add(into, part, primitives_);
            });
     SplitCandidate best;
-    bins.improve(best, grid.axis(), SpaceGrid::bin_count, limits);
-    const double halving_cost = range.bounds.boxes.half_area() * range.count();
+    bins.improve(best, grid.axis(), SpaceGrid::bin_count, limits, block_count_);
+    const double halving_cost = range.bounds.boxes.half_area() * block_count_(range.count());
     if (!(best.cost < std::min(object.cost, halving_cost))) return {};
     const float plane = grid.planes()[static_cast<size_t>(best.bin) - 1];
-    return distribute(range, depth, SpaceRoute(best, plane, primitives_));
+    return distribute(range, depth, SpaceRoute(best, plane, primitives_, block_count_));
   }
 
   // The middle of the order along the longest axis of the centres.
@@ -293,11 +259,14 @@ class SpatialSplitBuild {
   }
 
   const Primitives& primitives_;
-  const uint32_t leaf_size_;
+  const BuildSettings settings_;
+  const int leaf_size_;
   const int max_depth_;
+  const BlockCount block_count_;
   Progress& progress_;
   uint32_t capacity_;
   double root_area_ = 0;
+  std::optional<SmallSweep::Costs> small_costs_;
   std::array<std::unique_ptr<Reference[], Free>, 2> buffers_;
   std::atomic<uint32_t> placed_{0};
 };

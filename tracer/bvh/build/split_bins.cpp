@@ -13,10 +13,10 @@ void AxisBins::merge(const AxisBins& other, int bin_count) {
   }
 }
 
-void AxisBins::improve(SplitCandidate& best, int axis, int bin_count,
-                       const SplitLimits& limits) const {
-  std::array<double, most_bins> right_areas;
-  std::array<uint32_t, most_bins> right_counts;
+void AxisBins::improve(SplitCandidate& best, int axis, int bin_count, const SplitLimits& limits,
+                       const BlockCount& block_count) const {
+  std::array<double, max_bin_count> right_areas;
+  std::array<uint32_t, max_bin_count> right_counts;
   SplitSide right;
   double right_area = 0;
   for (int bin = bin_count - 1; bin > 0; --bin) {
@@ -40,7 +40,8 @@ void AxisBins::improve(SplitCandidate& best, int axis, int bin_count,
         left.count + right_count > limits.both) {
       continue;
     }
-    const double cost = left.bounds.half_area() * left.count + right_areas[bin] * right_count;
+    const double cost = left.bounds.half_area() * block_count(left.count) +
+                        right_areas[bin] * block_count(right_count);
     if (cost < best.cost || (cost == best.cost && larger_side < best.larger_side())) {
       best = {cost, axis, bin, left, {{}, right_count}};
     }
@@ -70,9 +71,11 @@ void CenterBins::merge(const CenterBins& other, int bin_count) {
   for (int axis = 0; axis < 3; ++axis) axes_[axis].merge(other.axes_[axis], bin_count);
 }
 
-SplitCandidate CenterBins::best(const CenterGrid& grid, const SplitLimits& limits) const {
+SplitCandidate CenterBins::best(const CenterGrid& grid, const SplitLimits& limits,
+                                const BlockCount& block_count) const {
   SplitCandidate best;
-  for (int axis = 0; axis < 3; ++axis) axes_[axis].improve(best, axis, grid.bin_count(), limits);
+  for (int axis = 0; axis < 3; ++axis)
+    axes_[axis].improve(best, axis, grid.bin_count(), limits, block_count);
   return best;
 }
 

@@ -7,11 +7,10 @@
 #include <span>
 
 #include "tracer/bvh/build/reference.h"
+#include "tracer/bvh/build/split_cost.h"
 #include "tracer/bvh/primitives.h"
 
 namespace tracer {
-
-inline constexpr int most_bins = 32;
 
 /// What would go to either side.
 struct SplitSide {
@@ -20,7 +19,7 @@ struct SplitSide {
 };
 
 struct SplitCandidate {
-  double cost = std::numeric_limits<double>::infinity();  // area * count of both sides
+  double cost = std::numeric_limits<double>::infinity();  // area * block count of both sides
   int axis = 0;
   int bin = 0;  // the first of the right side
   SplitSide left, right;
@@ -48,7 +47,9 @@ class AxisBins {
   void enter(int bin) { ++bins_[bin].entries; }
   void leave(int bin) { ++bins_[bin].exits; }
   void merge(const AxisBins& other, int bin_count);
-  void improve(SplitCandidate& best, int axis, int bin_count, const SplitLimits& limits) const;
+  /// Where a plane along `axis` is cheaper than `best`, or as cheap and more even, it is the best.
+  void improve(SplitCandidate& best, int axis, int bin_count, const SplitLimits& limits,
+               const BlockCount& block_count) const;
 
  private:
   struct Bin {
@@ -60,7 +61,7 @@ class AxisBins {
       return entries == 0 && exits == 0 && !(bounds.min[0] <= bounds.max[0]);
     }
   };
-  std::array<Bin, most_bins> bins_;
+  std::array<Bin, max_bin_count> bins_;
 };
 
 /// Maps centres to bins.
@@ -87,7 +88,8 @@ class CenterBins {
   }
   void add(std::span<const Reference> references, const CenterGrid& grid);
   void merge(const CenterBins& other, int bin_count);
-  SplitCandidate best(const CenterGrid& grid, const SplitLimits& limits) const;
+  SplitCandidate best(const CenterGrid& grid, const SplitLimits& limits,
+                      const BlockCount& block_count) const;
 
  private:
   std::array<AxisBins, 3> axes_;

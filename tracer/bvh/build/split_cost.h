@@ -12,10 +12,24 @@
 namespace tracer {
 
 /// The most primitives either side of `count` may have, so that the levels below it can reach the
-/// leaf size; `count` where they cannot in any case. levels_left >= 1 are allowed below the node.
-inline uint32_t side_limit(uint32_t count, int leaf_size, int levels_left) {
+/// leaf size; `room`, of which cuts may make so many, where they cannot in any case. levels_left >=
+/// 1 are allowed below the node.
+inline uint32_t side_limit(uint32_t count, uint32_t room, int leaf_size, int levels_left) {
   const uint64_t limit = static_cast<uint64_t>(leaf_size) << std::min(levels_left - 1, 32);
-  return count <= 2 * limit ? static_cast<uint32_t>(std::min<uint64_t>(limit, count)) : count;
+  return count <= 2 * limit ? static_cast<uint32_t>(std::min<uint64_t>(limit, room)) : room;
+}
+/// Where nothing is cut.
+inline uint32_t side_limit(uint32_t count, int leaf_size, int levels_left) {
+  return side_limit(count, count, leaf_size, levels_left);
+}
+
+inline constexpr int max_bin_count = 64;
+
+/// Bins along each axis for the centres of `count` primitives: as many as the settings say, fewer
+/// where a finer split will follow soon.
+inline int bin_count_for(uint32_t count, const BuildSettings& settings) {
+  const int most = std::clamp(settings.bins, 2, max_bin_count);
+  return static_cast<int>(std::min(static_cast<uint32_t>(most), 4 + count / 16));
 }
 
 /// What the heuristic counts in a node: its blocks of primitives that are tested at once, the last

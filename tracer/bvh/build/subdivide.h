@@ -36,15 +36,22 @@ void for_each_position(PrimitiveRange range, const Progress& progress, F&& f) {
   }
 }
 
-/// Gives `part` two below it: calls build_left(part) and build_right(part), at the same time where
-/// there are threads. Throws Cancelled where either was left out.
+/// Calls f() and g(), at the same time where there are threads. Throws Cancelled where either was
+/// left out.
+template <class F, class G>
+void do_both(F&& f, G&& g) {
+  bool is_f_done = false, is_g_done = false;
+  parallel_invoke([&] { f(), is_f_done = true; }, [&] { g(), is_g_done = true; });
+  // Tasks are skipped, without an exception here, once one elsewhere has thrown.
+  if (!is_f_done || !is_g_done) throw Cancelled{};
+}
+
+/// Gives `part` two below it: calls build_left(part) and build_right(part) as do_both() does.
 template <class F, class G>
 void build_both(TreePart& part, F&& build_left, G&& build_right) {
   part.left = std::make_unique<TreePart>();
   part.right = std::make_unique<TreePart>();
-  parallel_invoke([&] { build_left(*part.left); }, [&] { build_right(*part.right); });
-  // Tasks are skipped, without an exception here, once one elsewhere has thrown.
-  if (part.left->nodes.empty() || part.right->nodes.empty()) throw Cancelled{};
+  do_both([&] { build_left(*part.left); }, [&] { build_right(*part.right); });
 }
 
 /// Room for most subtrees that one task makes.

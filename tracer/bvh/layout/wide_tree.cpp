@@ -6,9 +6,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <new>
 
 #include "tracer/base/huge_pages.h"
 #include "tracer/base/parallel.h"
@@ -19,13 +17,7 @@
 namespace tracer {
 
 FloatRows::FloatRows(size_t row_count, int width) : row_count_(row_count), width_(width) {
-  // Large trees in large pages: fewer to fault in and to look up.
-  constexpr size_t large_page = size_t{1} << 21;
-  const size_t alignment = bytes() >= 2 * large_page ? large_page : 64;
-  const size_t rounded = std::max((bytes() + alignment - 1) / alignment * alignment, alignment);
-  data_.reset(static_cast<float*>(std::aligned_alloc(alignment, rounded)));
-  if (!data_) throw std::bad_alloc();
-  prefer_huge_pages(data_.get(), rounded);
+  data_.reset(static_cast<float*>(allocate_in_huge_pages(bytes())));
 }
 
 namespace {

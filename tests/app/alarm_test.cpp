@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/session_alarm.h"
+#include "app/alarm.h"
 
 #include <atomic>
 #include <chrono>
