@@ -83,6 +83,18 @@ void set_camera(World& world, const Camera& camera, Vec2i size_px) {
   world.camera = make_camera_frame(camera, size_px, world.scene->mesh->origin);
 }
 
+World make_room(Vec2i size_px, Tracing tracing, int ball_level) {
+  Triangles triangles;
+  triangles.add_quad({-3, -1, -3}, {0, 0, 6}, {6, 0, 0}, 0);
+  triangles.add_quad({-3, -1, -3}, {6, 0, 0}, {0, 4, 0}, 0);
+  triangles.add_quad({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, 1);
+  triangles.add_sphere({0.2, 0, 0.3}, 1, ball_level, 2);
+  World world = make_world(triangles, {diffuse(0.7), diffuse(0.1, 4), diffuse(0.5)},
+                           Vec3d(0.2, 0.3, 0.5), tracing);
+  set_camera(world, {.eye = {2, 1, 6}, .target = {0, 0.3, 0}}, size_px);
+  return world;
+}
+
 Film render(const World& world, const Integrator& integrator, const RenderSettings& settings,
             Vec2i size_px, uint32_t sample_count) {
   Film film(size_px);

@@ -37,6 +37,9 @@ World make_world(const Triangles& triangles, const std::vector<Material>& materi
                  const Vec3d& sky, Tracing tracing = Tracing::tree);
 void set_camera(World& world, const Camera& camera, Vec2i size_px);
 
+/// A lit room with a ball in it, so that every branch of every integrator is taken.
+World make_room(Vec2i size_px, Tracing tracing = Tracing::tree, int ball_level = 2);
+
 /// Samples [0, sample_count) of every pixel.
 Film render(const World& world, const Integrator& integrator, const RenderSettings& settings,
             Vec2i size_px, uint32_t sample_count);
