@@ -2,6 +2,7 @@
 #include "tests/support/worlds.h"
 
 #include <cmath>
+#include <optional>
 
 namespace tracer::test {
 
@@ -69,13 +70,13 @@ World make_world(const Triangles& triangles, const std::vector<Material>& materi
   scene->textures = std::make_shared<std::vector<Texture>>();
   scene->lights =
       std::make_shared<EmissiveTriangles>(make_emissive_triangles(*scene->mesh, materials));
-  auto accel = std::make_shared<Accel>();
-  accel->mesh = scene->mesh;
+  Progress progress;
+  std::optional<BvhTree> tree;
   if (tracing == Tracing::tree) {
-    Progress progress;
-    accel->tree = std::make_shared<const BvhTree>(
-        builders().front().build(primitive_boxes(*scene->mesh), {}, progress));
+    tree = builders().front().build(primitive_boxes(*scene->mesh), {}, progress);
   }
+  const auto accel = std::make_shared<Accel>(
+      make_accel(scene->mesh, std::move(tree), layouts().front(), progress));
   return {.scene = scene, .accel = accel, .camera = {}, .sky = sky};
 }
 

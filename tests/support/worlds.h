@@ -30,6 +30,7 @@ inline Material diffuse(double albedo, double emission = 0) {
   return material;
 }
 
+/// Through every triangle, or the tree and layout that a user gets.
 enum class Tracing { brute_force, tree };
 
 /// A world of 1x1 px, for a start; see set_camera.
