@@ -22,11 +22,12 @@ double cpu_seconds() {
 
 /// What the camera ray met, after as much time as a large model without a tree would take.
 template <int pixel_ms>
-tracer::Vec3d slow_radiance(const tracer::World&, tracer::RayCaster&,
-                            const tracer::CameraHit& camera, tracer::Sampler&,
-                            const tracer::RenderSettings&) {
-  std::this_thread::sleep_for(std::chrono::milliseconds(pixel_ms));
-  return tracer::Vec3d(camera.hit.is_hit() ? 1.0 : 0.5);
+void slow_radiance(const tracer::World&, tracer::RayCaster&, const tracer::RenderSettings&,
+                   const tracer::SampleBlock& block) {
+  for (size_t i = 0; i < block.size(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(pixel_ms));
+    block.radiance[i] = tracer::Vec3d(block.camera_hits[i].is_hit() ? 1.0 : 0.5);
+  }
 }
 
 TEST_F(SessionTest, shows_a_model_up_to_the_sample_limit) {
@@ -45,6 +46,7 @@ TEST_F(SessionTest, shows_a_model_up_to_the_sample_limit) {
 TEST_F(SessionTest, a_rate_is_known_and_pixels_are_shown_before_a_slow_tile_is_done) {
   static constexpr tracer::Integrator slow{"", "", "", slow_radiance<150>, nullptr};
   edits_.integrator = &slow;
+  edits_.builder = nullptr;
   edits_.size_px = {64, 64};
   session_->set(edits_);
   session_->open(ball("ball.obj", 12));
@@ -58,6 +60,7 @@ TEST_F(SessionTest, a_rate_is_known_and_pixels_are_shown_before_a_slow_tile_is_d
 TEST_F(SessionTest, a_pixel_that_takes_longer_than_others_have_is_traced_all_the_same) {
   static constexpr tracer::Integrator slow{"", "", "", slow_radiance<400>, nullptr};
   edits_.integrator = &slow;
+  edits_.builder = nullptr;
   edits_.size_px = {2, 1};
   edits_.sample_limit = 1;
   EXPECT_TRUE(show(ball("ball.obj", 12)));

@@ -14,10 +14,10 @@ using test::Estimate;
 using test::Triangles;
 
 template <LightStrategy strategy>
-Vec3d radiance_by(const World& world, RayCaster& rays, const CameraHit& camera, Sampler& sampler,
-                  const RenderSettings& settings) {
+void radiance_by(const World& world, RayCaster& rays, const RenderSettings& settings,
+                 const SampleBlock& block) {
   NoRecorder recorder;
-  return BasicPath<strategy>::radiance(world, rays, camera, sampler, settings, recorder);
+  BasicPath<strategy>::radiance(world, rays, settings, block, recorder);
 }
 
 const Integrator& path() {

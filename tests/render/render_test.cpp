@@ -18,17 +18,8 @@ using test::Triangles;
 
 constexpr Vec2i size_px(150, 70);
 
-/// A lit room with a ball in it, so that every branch of every integrator is taken.
 World make_room(test::Tracing tracing = test::Tracing::tree, int ball_level = 2) {
-  Triangles triangles;
-  triangles.add_quad({-3, -1, -3}, {0, 0, 6}, {6, 0, 0}, 0);
-  triangles.add_quad({-3, -1, -3}, {6, 0, 0}, {0, 4, 0}, 0);
-  triangles.add_quad({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, 1);
-  triangles.add_sphere({0.2, 0, 0.3}, 1, ball_level, 2);
-  World world = test::make_world(triangles, {diffuse(0.7), diffuse(0.1, 4), diffuse(0.5)},
-                                 Vec3d(0.2, 0.3, 0.5), tracing);
-  test::set_camera(world, {.eye = {2, 1, 6}, .target = {0, 0.3, 0}}, size_px);
-  return world;
+  return test::make_room(size_px, tracing, ball_level);
 }
 
 void expect_same_bits(const Film& a, const Film& b) {
@@ -189,9 +180,12 @@ TEST(Render, every_tile_is_reported_once_a_pass_after_the_film_holds_it) {
 TEST(Render, samples_that_are_not_finite_are_black_and_counted) {
   const Integrator broken{
       "", "", "",
-      [](const World&, RayCaster&, const CameraHit& camera, Sampler&, const RenderSettings&) {
-        return Vec3d(camera.ray.direction.x > 0 ? 1.0 : NAN, INFINITY, 0) *
-               (camera.ray.direction.y > 0 ? 0.0 : 1.0);
+      [](const World&, RayCaster&, const RenderSettings&, const SampleBlock& block) {
+        for (size_t i = 0; i < block.size(); ++i) {
+          const Vec3f direction = block.camera_rays[i].direction;
+          block.radiance[i] =
+              Vec3d(direction.x > 0 ? 1.0 : NAN, INFINITY, 0) * (direction.y > 0 ? 0.0 : 1.0);
+        }
       },
       nullptr};
   Film film(size_px);

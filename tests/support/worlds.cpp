@@ -2,6 +2,7 @@
 #include "tests/support/worlds.h"
 
 #include <cmath>
+#include <optional>
 
 namespace tracer::test {
 
@@ -69,18 +70,30 @@ World make_world(const Triangles& triangles, const std::vector<Material>& materi
   scene->textures = std::make_shared<std::vector<Texture>>();
   scene->lights =
       std::make_shared<EmissiveTriangles>(make_emissive_triangles(*scene->mesh, materials));
-  auto accel = std::make_shared<Accel>();
-  accel->mesh = scene->mesh;
+  Progress progress;
+  std::optional<BvhTree> tree;
   if (tracing == Tracing::tree) {
-    Progress progress;
-    accel->tree = std::make_shared<const BvhTree>(
-        builders().front().build(primitive_boxes(*scene->mesh), {}, progress));
+    tree = builders().front().build(primitive_boxes(*scene->mesh), {}, progress);
   }
+  const auto accel = std::make_shared<Accel>(
+      make_accel(scene->mesh, std::move(tree), layouts().front(), progress));
   return {.scene = scene, .accel = accel, .camera = {}, .sky = sky};
 }
 
 void set_camera(World& world, const Camera& camera, Vec2i size_px) {
   world.camera = make_camera_frame(camera, size_px, world.scene->mesh->origin);
+}
+
+World make_room(Vec2i size_px, Tracing tracing, int ball_level) {
+  Triangles triangles;
+  triangles.add_quad({-3, -1, -3}, {0, 0, 6}, {6, 0, 0}, 0);
+  triangles.add_quad({-3, -1, -3}, {6, 0, 0}, {0, 4, 0}, 0);
+  triangles.add_quad({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, 1);
+  triangles.add_sphere({0.2, 0, 0.3}, 1, ball_level, 2);
+  World world = make_world(triangles, {diffuse(0.7), diffuse(0.1, 4), diffuse(0.5)},
+                           Vec3d(0.2, 0.3, 0.5), tracing);
+  set_camera(world, {.eye = {2, 1, 6}, .target = {0, 0.3, 0}}, size_px);
+  return world;
 }
 
 Film render(const World& world, const Integrator& integrator, const RenderSettings& settings,

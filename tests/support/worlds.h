@@ -30,12 +30,16 @@ inline Material diffuse(double albedo, double emission = 0) {
   return material;
 }
 
+/// Through every triangle, or the tree and layout that a user gets.
 enum class Tracing { brute_force, tree };
 
 /// A world of 1x1 px, for a start; see set_camera.
 World make_world(const Triangles& triangles, const std::vector<Material>& materials,
                  const Vec3d& sky, Tracing tracing = Tracing::tree);
 void set_camera(World& world, const Camera& camera, Vec2i size_px);
+
+/// A lit room with a ball in it, so that every branch of every integrator is taken.
+World make_room(Vec2i size_px, Tracing tracing = Tracing::tree, int ball_level = 2);
 
 /// Samples [0, sample_count) of every pixel.
 Film render(const World& world, const Integrator& integrator, const RenderSettings& settings,

@@ -2,6 +2,7 @@
 #include "tracer/render/integrator.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "tracer/render/path.h"
 #include "tracer/render/preview.h"
@@ -10,17 +11,18 @@ namespace tracer {
 namespace {
 
 template <class Method>
-Vec3d radiance(const World& world, RayCaster& rays, const CameraHit& camera, Sampler& sampler,
-               const RenderSettings& settings) {
+void radiance(const World& world, RayCaster& rays, const RenderSettings& settings,
+              const SampleBlock& block) {
   NoRecorder recorder;
-  return Method::radiance(world, rays, camera, sampler, settings, recorder);
+  Method::radiance(world, rays, settings, block, recorder);
 }
 
 template <class Method>
-Vec3d describe(const World& world, RayCaster& rays, const CameraHit& camera, Sampler& sampler,
-               const RenderSettings& settings, std::string& text) {
+void describe(const World& world, RayCaster& rays, const RenderSettings& settings,
+              const SampleBlock& block, std::string& text) {
+  assert(block.size() == 1);
   TextRecorder recorder(text, world.scene->mesh->origin);
-  return Method::radiance(world, rays, camera, sampler, settings, recorder);
+  Method::radiance(world, rays, settings, block, recorder);
 }
 
 template <class Method>

@@ -2,6 +2,7 @@
 // The table of integrators. To add one: one file, one line in integrator.cpp.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,20 +13,26 @@
 
 namespace tracer {
 
-/// A camera ray and what it meets first, traced together with its neighbours'.
-struct CameraHit {
-  Ray ray;
-  Hit hit;
+/// Samples of neighbouring pixels, answered together so that their rays can be traced together. All
+/// spans are of one size, 1 to max_size; a sample's radiance does not depend on the others.
+struct SampleBlock {
+  static constexpr size_t max_size = 64;
+
+  std::span<const Ray> camera_rays;
+  std::span<const Hit> camera_hits;  // what those meet first
+  std::span<Sampler> samplers;       // the random numbers that follow the camera's
+  std::span<Vec3d> radiance;         // the answer: linear RGB that arrives along each ray
+
+  size_t size() const { return camera_rays.size(); }
 };
 
-/// Radiance, linear RGB, that arrives along a camera ray: one sample.
-using RadianceFunction = Vec3d (*)(const World& world, RayCaster& rays, const CameraHit& camera,
-                                   Sampler& sampler, const RenderSettings& settings);
+using RadianceFunction = void (*)(const World& world, RayCaster& rays,
+                                  const RenderSettings& settings, const SampleBlock& block);
 
-/// The same sample, with its path appended to `text`, a line a vertex.
-using DescribeFunction = Vec3d (*)(const World& world, RayCaster& rays, const CameraHit& camera,
-                                   Sampler& sampler, const RenderSettings& settings,
-                                   std::string& text);
+/// The same for a block of one, with its path appended to `text`, a line a vertex.
+using DescribeFunction = void (*)(const World& world, RayCaster& rays,
+                                  const RenderSettings& settings, const SampleBlock& block,
+                                  std::string& text);
 
 struct Integrator {
   std::string_view name;   // as on the command line

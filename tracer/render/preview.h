@@ -2,6 +2,7 @@
 // Integrators that show shape within a sample or two.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "tracer/render/integrator.h"
@@ -10,32 +11,44 @@
 
 namespace tracer {
 
-/// Where the camera ray ends; nullopt, with `miss` recorded as the sky, where it meets nothing.
+/// Where a camera ray ends; nullopt, with `miss` recorded as the sky, where it meets nothing.
 template <class Recorder>
-std::optional<Surface> first_surface(const World& world, const CameraHit& camera, const Vec3d& miss,
-                                     Recorder& recorder) {
-  const auto& [ray, hit] = camera;
+std::optional<Surface> first_surface(const World& world, const SampleBlock& block, size_t sample,
+                                     const Vec3d& miss, Recorder& recorder) {
+  const Ray& ray = block.camera_rays[sample];
+  const Hit& hit = block.camera_hits[sample];
   recorder.camera(ray);
   if (hit.is_hit()) return surface_at(*world.scene, hit, Vec3d(ray.direction));
   recorder.sky(ray, Vec3d(1), miss);
   return std::nullopt;
 }
 
+/// Answers a block by colour(ray, surface) where camera rays end, by `miss` where they meet
+/// nothing.
+template <class Recorder, class Colour>
+void colour_first_surfaces(const World& world, const SampleBlock& block, const Vec3d& miss,
+                           Recorder& recorder, const Colour& colour) {
+  for (size_t i = 0; i < block.size(); ++i) {
+    block.radiance[i] = miss;
+    const auto surface = first_surface(world, block, i, miss, recorder);
+    if (!surface) continue;
+    block.radiance[i] = colour(block.camera_rays[i], *surface);
+    recorder.hit(block.camera_rays[i], block.camera_hits[i], *surface, Vec3d(1), block.radiance[i]);
+  }
+}
+
 /// Albedo times the cosine between view and shading normal, as if lit by a lamp on the camera,
 /// plus emission; the sky where nothing is hit.
 struct EyeLight {
   template <class Recorder>
-  static Vec3d radiance(const World& world, RayCaster&, const CameraHit& camera, Sampler&,
-                        const RenderSettings&, Recorder& recorder) {
-    const auto first = first_surface(world, camera, world.sky, recorder);
-    if (!first) return world.sky;
-    const auto& [ray, hit] = camera;
-    const Surface& surface = *first;
-    const Vec3d view = unit_or(Vec3d(ray.direction), Vec3d(0));
-    const double cosine = std::abs(glm::dot(surface.shading_normal, view));
-    const Vec3d radiance = surface.albedo * cosine + surface.emission;
-    recorder.hit(ray, hit, surface, Vec3d(1), radiance);
-    return radiance;
+  static void radiance(const World& world, RayCaster&, const RenderSettings&,
+                       const SampleBlock& block, Recorder& recorder) {
+    const auto colour = [](const Ray& ray, const Surface& surface) {
+      const Vec3d view = unit_or(Vec3d(ray.direction), Vec3d(0));
+      const double cosine = std::abs(glm::dot(surface.shading_normal, view));
+      return surface.albedo * cosine + surface.emission;
+    };
+    colour_first_surfaces(world, block, world.sky, recorder, colour);
   }
 };
 
@@ -43,15 +56,12 @@ struct EyeLight {
 /// hit, which no normal's colour is.
 struct Normals {
   template <class Recorder>
-  static Vec3d radiance(const World& world, RayCaster&, const CameraHit& camera, Sampler&,
-                        const RenderSettings&, Recorder& recorder) {
-    const auto first = first_surface(world, camera, Vec3d(0), recorder);
-    if (!first) return Vec3d(0);
-    const auto& [ray, hit] = camera;
-    const Surface& surface = *first;
-    const Vec3d radiance = 0.5 * (surface.shading_normal + Vec3d(1));
-    recorder.hit(ray, hit, surface, Vec3d(1), radiance);
-    return radiance;
+  static void radiance(const World& world, RayCaster&, const RenderSettings&,
+                       const SampleBlock& block, Recorder& recorder) {
+    const auto colour = [](const Ray&, const Surface& surface) {
+      return 0.5 * (surface.shading_normal + Vec3d(1));
+    };
+    colour_first_surfaces(world, block, Vec3d(0), recorder, colour);
   }
 };
 
@@ -59,21 +69,35 @@ struct Normals {
 /// one direction a sample; white where nothing is hit: nothing is near.
 struct AmbientOcclusion {
   template <class Recorder>
-  static Vec3d radiance(const World& world, RayCaster& rays, const CameraHit& camera,
-                        Sampler& sampler, const RenderSettings&, Recorder& recorder) {
-    const auto first = first_surface(world, camera, Vec3d(1), recorder);
-    if (!first) return Vec3d(1);
-    const auto& [ray, hit] = camera;
-    const Surface& surface = *first;
-    const Vec3d direction = sample_cosine_hemisphere(surface.shading_normal, sampler.next_2d());
-    const Ray probe{.origin = offset_origin(surface),
-                    .direction = Vec3f(direction),
-                    .t_max = glm::length(world.scene->mesh->bounds.extent())};
-    recorder.hit(ray, hit, surface, Vec3d(1), Vec3d(0));
-    const bool is_occluded =
-        !(glm::dot(Vec3d(probe.direction), surface.geometric_normal) > 0) || rays.occluded(probe);
-    recorder.occlusion(probe, is_occluded);
-    return Vec3d(is_occluded ? 0 : 1);
+  static void radiance(const World& world, RayCaster& rays, const RenderSettings&,
+                       const SampleBlock& block, Recorder& recorder) {
+    std::array<Ray, SampleBlock::max_size> probes;
+    std::array<uint8_t, SampleBlock::max_size> is_occluded;
+    std::array<size_t, SampleBlock::max_size> samples;  // that probes belong to
+    size_t probe_count = 0;
+    const double reach = glm::length(world.scene->mesh->bounds.extent());
+    for (size_t i = 0; i < block.size(); ++i) {
+      block.radiance[i] = Vec3d(1);
+      const auto surface = first_surface(world, block, i, Vec3d(1), recorder);
+      if (!surface) continue;
+      recorder.hit(block.camera_rays[i], block.camera_hits[i], *surface, Vec3d(1), Vec3d(0));
+      const Vec3d direction =
+          sample_cosine_hemisphere(surface->shading_normal, block.samplers[i].next_2d());
+      const Ray probe{
+          .origin = offset_origin(*surface), .direction = Vec3f(direction), .t_max = reach};
+      if (glm::dot(Vec3d(probe.direction), surface->geometric_normal) > 0) {
+        samples[probe_count] = i;
+        probes[probe_count++] = probe;
+      } else {
+        block.radiance[i] = Vec3d(0);
+        recorder.occlusion(probe, true);
+      }
+    }
+    rays.occluded({probes.data(), probe_count}, {is_occluded.data(), probe_count});
+    for (size_t k = 0; k < probe_count; ++k) {
+      block.radiance[samples[k]] = Vec3d(is_occluded[k] ? 0 : 1);
+      recorder.occlusion(probes[k], is_occluded[k] != 0);
+    }
   }
 };
 

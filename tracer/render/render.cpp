@@ -5,7 +5,6 @@
 #include <array>
 #include <atomic>
 #include <cassert>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -43,25 +42,26 @@ struct PassContext {
   const StopFlag& stop;
 };
 
-/// Neighbours whose camera rays are traced together.
-constexpr int block_side = 8;
-
-/// In Morton order: 4 pixels in a row are a square, and 16.
+/// In Morton order: 4 pixels in a row are a square, and 16, and 64.
 Vec2i place_in_block(int i) {
   const auto every_other_bit = [](int bits) {
-    return (bits & 1) | (bits >> 1 & 2) | (bits >> 2 & 4);
+    return (bits & 1) | (bits >> 1 & 2) | (bits >> 2 & 4) | (bits >> 3 & 8);
   };
   return {every_other_bit(i), every_other_bit(i >> 1)};
 }
 
-/// The pixels of a block that lack the pass's sample.
+constexpr int block_side = 8;
+
+/// The pixels of a square that lack the pass's sample, and what is found for them.
 struct PixelBlock {
   static constexpr size_t capacity = block_side * block_side;
+  static_assert(capacity <= SampleBlock::max_size);
 
   std::array<Vec2i, capacity> pixels;
   std::array<Ray, capacity> rays;
   std::array<Hit, capacity> hits;
-  std::array<std::optional<Sampler>, capacity> samplers;
+  std::array<Sampler, capacity> samplers;
+  std::array<Vec3d, capacity> radiance;
   size_t count = 0;
 };
 
@@ -108,27 +108,35 @@ class TileRenderer {
   }
 
   bool render_block() {
-    // Where a ray may take milliseconds, a stop loses but one.
+    // Where a ray may take milliseconds, a stop loses but one sample.
     const size_t together = context_.world.accel->wide ? PixelBlock::capacity : 1;
-    for (size_t i = 0; i < block_.count; ++i) {
-      if (context_.stop.requested()) return false;
-      if (i % together == 0) {
-        const size_t count = std::min(together, block_.count - i);
-        rays_.closest_hits({&block_.rays[i], count}, {&block_.hits[i], count});
-      }
-      Vec3d radiance =
-          context_.integrator.radiance(context_.world, rays_, {block_.rays[i], block_.hits[i]},
-                                       *block_.samplers[i], context_.settings);
-      // A stopped ray caster may have answered with misses.
-      if (context_.stop.requested()) return false;
-      if (!is_finite(radiance)) {
-        radiance = Vec3d(0);
-        ++stats_.dropped;
-      }
-      context_.film.add(block_.pixels[i].x, block_.pixels[i].y, radiance);
-      ++stats_.samples;
+    for (size_t first = 0; first < block_.count; first += together) {
+      if (!render_samples(first, std::min(together, block_.count - first))) return false;
     }
     return true;
+  }
+
+  bool render_samples(size_t first, size_t count) {
+    if (context_.stop.requested()) return false;
+    rays_.closest_hits({&block_.rays[first], count}, {&block_.hits[first], count});
+    context_.integrator.radiance(context_.world, rays_, context_.settings,
+                                 {.camera_rays = {&block_.rays[first], count},
+                                  .camera_hits = {&block_.hits[first], count},
+                                  .samplers = {&block_.samplers[first], count},
+                                  .radiance = {&block_.radiance[first], count}});
+    // A stopped ray caster may have answered with misses.
+    if (context_.stop.requested()) return false;
+    for (size_t i = first; i < first + count; ++i) {
+      add_sample(block_.pixels[i], block_.radiance[i]);
+    }
+    return true;
+  }
+
+  void add_sample(Vec2i pixel, const Vec3d& radiance) {
+    const bool is_usable = is_finite(radiance);
+    if (!is_usable) ++stats_.dropped;
+    context_.film.add(pixel.x, pixel.y, is_usable ? radiance : Vec3d(0));
+    ++stats_.samples;
   }
 
   const PassContext& context_;
@@ -137,6 +145,20 @@ class TileRenderer {
   PassStats stats_;
   PixelBlock block_;
 };
+
+/// Starts a sample and has it answered as a block of one.
+template <class Answer>
+Vec3d answer_sample(const World& world, const RenderSettings& settings, Vec2i size_px, Vec2i pixel,
+                    uint32_t sample, RayCaster& rays, const Answer& answer) {
+  auto [ray, sampler] = start_sample(world, settings, size_px, pixel, sample);
+  const Hit hit = rays.closest_hit(ray);
+  Vec3d radiance(0);
+  answer(SampleBlock{.camera_rays = {&ray, 1},
+                     .camera_hits = {&hit, 1},
+                     .samplers = {&sampler, 1},
+                     .radiance = {&radiance, 1}});
+  return radiance;
+}
 
 }  // namespace
 
@@ -166,8 +188,10 @@ PassStats render_pass(const World& world, const Integrator& integrator,
 Vec3d render_sample(const World& world, const Integrator& integrator,
                     const RenderSettings& settings, Vec2i size_px, Vec2i pixel, uint32_t sample,
                     RayCaster& rays) {
-  auto [ray, sampler] = start_sample(world, settings, size_px, pixel, sample);
-  return integrator.radiance(world, rays, {ray, rays.closest_hit(ray)}, sampler, settings);
+  const auto find_radiance = [&](const SampleBlock& block) {
+    integrator.radiance(world, rays, settings, block);
+  };
+  return answer_sample(world, settings, size_px, pixel, sample, rays, find_radiance);
 }
 
 std::string describe_sample(const World& world, const Integrator& integrator,
@@ -175,10 +199,11 @@ std::string describe_sample(const World& world, const Integrator& integrator,
                             uint32_t sample) {
   const StopFlag never;
   RayCaster rays(*world.accel, never);
-  auto [ray, sampler] = start_sample(world, settings, size_px, pixel, sample);
   std::string text;
-  const Vec3d radiance =
-      integrator.describe(world, rays, {ray, rays.closest_hit(ray)}, sampler, settings, text);
+  const auto describe = [&](const SampleBlock& block) {
+    integrator.describe(world, rays, settings, block, text);
+  };
+  const Vec3d radiance = answer_sample(world, settings, size_px, pixel, sample, rays, describe);
   text += fmt::format("radiance {:.9g} {:.9g} {:.9g}\n", radiance.x, radiance.y, radiance.z);
   return text;
 }

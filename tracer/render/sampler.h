@@ -12,6 +12,8 @@ namespace tracer {
 /// seed) alone, so no order of tiles or threads changes a picture.
 class Sampler {
  public:
+  /// Of pixel 0, for arrays.
+  Sampler() = default;
   Sampler(uint32_t pixel, uint32_t sample, uint32_t seed)
       : pixel_(pixel), sample_(sample), seed_(seed) {}
 
@@ -24,9 +26,9 @@ class Sampler {
   }
 
  private:
-  uint32_t pixel_;
-  uint32_t sample_;
-  uint32_t seed_;
+  uint32_t pixel_ = 0;
+  uint32_t sample_ = 0;
+  uint32_t seed_ = 0;
   uint32_t dimension_ = 0;
 };
 
