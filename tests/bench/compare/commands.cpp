@@ -8,6 +8,7 @@ constexpr Command table[] = {
     {"rays", "rays traced a second, beside Embree", compare_rays},
     {"build", "time and memory of trees, beside Embree", compare_builds},
     {"orbit", "from mouse events to changed pixels", measure_orbit},
+    {"kernels", "ray-triangle tests: time against error, beside Embree", compare_kernels},
     {"exactness", "what exact leaves cost the traversal", measure_exactness},
 };
 

@@ -14,6 +14,7 @@ namespace bench {
 int compare_rays(const Options& options);
 int compare_builds(const Options& options);
 int measure_orbit(const Options& options);
+int compare_kernels(const Options& options);
 int measure_exactness(const Options& options);
 
 struct Command {

@@ -22,6 +22,8 @@ void to_json(nlohmann::json& json, const ExactnessRecord& record) {
           {"exact_mrays_per_second", json_of(record.exact_mrays_per_second)},
           {"moeller_mrays_per_second", json_of(record.moeller_mrays_per_second)},
           {"cost", record.cost()},
+          {"blocks_a_ray", record.blocks},
+          {"exact_tests_a_ray", record.exact_tests},
           {"ray_count", record.ray_count},
           {"disagreements", record.disagreements}};
 }
@@ -31,10 +33,10 @@ std::string exactness_table(std::span<const ExactnessRecord> records) {
   for (const ExactnessRecord& record : records) {
     table += fmt::format(
         "{:<8} {}  {:<8} exact {:>6.2f}  Moeller-Trumbore {:>6.2f}  cost {:>5.1f} %  "
-        "{} of {} rays answered otherwise\n",
+        "{:.2f} blocks, {:.2f} exact tests a ray; {} of {} rays answered otherwise\n",
         record.scene, record.rays, record.way, record.exact_mrays_per_second.median,
-        record.moeller_mrays_per_second.median, 100 * record.cost(), record.disagreements,
-        record.ray_count);
+        record.moeller_mrays_per_second.median, 100 * record.cost(), record.blocks,
+        record.exact_tests, record.disagreements, record.ray_count);
   }
   return table;
 }

@@ -119,6 +119,18 @@ std::vector<double> speeds(const Runner& runner) {
   return speeds;
 }
 
+tracer::VisitCounts visits_of(const WideTree& tree, const RaySet& set) {
+  const StopFlag stop;
+  tracer::VisitCounts counts;
+  for (const Ray& ray : set.rays) {
+    Hit hit;
+    [[maybe_unused]] const bool is_in_range = set.kind->query == Query::occluded
+                                                  ? occluded_wide(tree, ray, stop, hit, counts)
+                                                  : closest_hit_wide(tree, ray, stop, hit, counts);
+  }
+  return counts;
+}
+
 ExactnessRecord measure_set(const WideTree& tree, const RaySet& all, const Way& way,
                             const Options& options) {
   const auto tracer_with = [&](const char* name, const Leaves& leaves) {
@@ -136,6 +148,10 @@ ExactnessRecord measure_set(const WideTree& tree, const RaySet& all, const Way& 
   record.moeller_mrays_per_second = spread_of(speeds(runners[1]));
   record.speed_ratio = paired_ratio(runners[1].seconds, runners[0].seconds);
   record.ray_count = set.rays.size();
+  const tracer::VisitCounts visits = visits_of(tree, set);
+  const auto ray_count = static_cast<double>(std::max<size_t>(record.ray_count, 1));
+  record.blocks = static_cast<double>(visits.blocks) / ray_count;
+  record.exact_tests = static_cast<double>(visits.exact_tests) / ray_count;
   record.disagreements = count_differences(runners[0], runners[1]);
   return record;
 }
