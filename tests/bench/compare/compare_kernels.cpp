@@ -73,6 +73,15 @@ std::vector<Spread> time_kernels(std::span<const Kernel> all, const Aiming& aimi
   return times;
 }
 
+// Of rays away from the block, only a call can tell the time.
+std::vector<Kernel> kernels_for(const Aiming& aiming) {
+  std::vector<Kernel> chosen = kernels();
+  if (aiming.aim == Aim::away) {
+    std::erase_if(chosen, [](const Kernel& kernel) { return kernel.form != Form::call; });
+  }
+  return chosen;
+}
+
 KernelRecord make_record(const Kernel& kernel, const Aiming& aiming, const Spread& time,
                          const Verdicts& verdicts) {
   return {.kernel = std::string(kernel.name),
@@ -98,9 +107,11 @@ int compare_kernels(const Options& options) {
   fmt::print(
       "{}\ntimes with what depends on a ray alone prepared; errors of t in ulps of a float\n",
       machine);
-  const std::vector<Kernel> all = kernels();
   std::vector<KernelRecord> records;
+  size_t judged_count = 0;  // records of rays that may hit, which come first
   for (const Aiming& aiming : aimings()) {
+    const std::vector<Kernel> all = kernels_for(aiming);
+    if (all.empty()) continue;
     const std::vector<Spread> times = time_kernels(all, aiming, options.repeat_count);
     const std::vector<Verdicts> verdicts = judge(all, aiming, block_count, rays_a_block_count);
     fmt::print("{}: rays {}; they hit {:.1f} % of what they are tested against\n", aiming.name,
@@ -111,8 +122,9 @@ int compare_kernels(const Options& options) {
     }
     fmt::print("{}", kernel_table(std::span(records).subspan(first)));
     std::fflush(stdout);
+    if (aiming.aim != Aim::away) judged_count = records.size();
   }
-  const std::vector<KernelRecord> summary = summarised(records);
+  const std::vector<KernelRecord> summary = summarised(std::span(records).first(judged_count));
   fmt::print("\nall rays; the time is that on random rays\n{}", kernel_table(summary));
   write_report(options.folder / "kernels", records, kernel_chart(summary, machine));
   const bool is_wrong = std::ranges::any_of(summary, [](const KernelRecord& record) {

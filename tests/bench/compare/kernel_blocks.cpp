@@ -39,6 +39,7 @@ constexpr Aiming table[] = {
      .what = "at both, 100,000 sizes from the coordinates' origin",
      .aim = Aim::edges_and_vertices,
      .offset = 1e5f},
+    {.name = "away", .what = "away from the block: what a call costs in itself", .aim = Aim::away},
 };
 
 uint32_t block_width() {
@@ -73,7 +74,7 @@ Vec3f point_between(const Vec3f& a, const Vec3f& b, float part) {
 
 Vec3f pick_target(Aim aim, const KernelBlock& block, RandomSource& random) {
   const Mesh& mesh = *block.mesh;
-  if (aim == Aim::anywhere) {
+  if (aim == Aim::anywhere || aim == Aim::away) {
     Vec3f target;
     for (int axis = 0; axis < 3; ++axis) {
       target[axis] = random.between(mesh.bounds.min[axis], mesh.bounds.max[axis]);
@@ -138,7 +139,8 @@ std::vector<Ray> make_aimed_rays(const Aiming& aiming, const KernelBlock& block,
                                                  (angle.cos * tangents.x + angle.sin * tangents.y);
     const Vec3f origin(Vec3d(target) + double{aiming.distance} * away);
     // At unit length, so that few rays meet their target without any error.
-    const Vec3f direction(glm::normalize(Vec3d(target) - Vec3d(origin)));
+    const double toward = aiming.aim == Aim::away ? -1 : 1;
+    const Vec3f direction(toward * glm::normalize(Vec3d(target) - Vec3d(origin)));
     rays.push_back({.origin = origin, .direction = direction});
   }
   return rays;

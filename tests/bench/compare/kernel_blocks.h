@@ -16,7 +16,7 @@
 namespace bench {
 
 /// Where rays are aimed.
-enum class Aim { anywhere, edges, vertices, edges_and_vertices };
+enum class Aim { anywhere, edges, vertices, edges_and_vertices, away };
 
 /// A kind of rays, and of the fans they are aimed at. Lengths count in radii of a fan, 1.
 struct Aiming {
@@ -29,9 +29,10 @@ struct Aiming {
   float offset = 0;                      // of the whole from the coordinates' origin
 
   /// Whether a ray that meets the fan must meet it however it is rounded: none grazes the rim.
-  bool finds_leaks() const { return aim != Aim::anywhere; }
+  bool finds_leaks() const { return aim != Aim::anywhere && aim != Aim::away; }
 };
 
+/// Rays away from the block come last.
 std::span<const Aiming> aimings();
 
 /// As many triangles as the kernels take at once (eight where there are no kernels), in closed fans
