@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
-#include "tests/support/run_program.h"
-#include "tests/support/virtual_display.h"
+#include "tests/bench/compare/svg.h"
 
 namespace bench {
 namespace {
@@ -43,47 +40,12 @@ constexpr double panel_foot = 50;  // labels of the groups
 constexpr double footer_height = 34;
 constexpr double plot_height = panel_height - panel_head - panel_foot;
 
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char letter : text) {
-    if (letter == '&') {
-      safe += "&amp;";
-    } else if (letter == '<') {
-      safe += "&lt;";
-    } else {
-      safe += letter;
-    }
-  }
-  return safe;
-}
-
-enum class Anchor { start, middle, end };
-
-struct TextStyle {
-  double size;
-  const char* color = "#222222";
-  Anchor anchor = Anchor::start;
-  const char* weight = "normal";
-};
-
-std::string text(double x, double y, const TextStyle& style, const std::string& content) {
-  constexpr const char* anchors[] = {"start", "middle", "end"};
-  return fmt::format(
-      "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" fill=\"{}\" text-anchor=\"{}\" "
-      "font-weight=\"{}\" stroke=\"#FFFFFF\" stroke-width=\"3\" paint-order=\"stroke\">{}</text>\n",
-      x, y, style.size, style.color, anchors[static_cast<int>(style.anchor)], style.weight,
-      escaped(content));
-}
-
-std::string rectangle(double x, double y, double w, double h, const std::string& color) {
-  return fmt::format(
-      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\"/>\n", x, y, w,
-      h, color);
-}
+using svg::Anchor;
+using svg::rectangle;
+using svg::text;
 
 std::string horizontal_line(double y, const char* attributes) {
-  return fmt::format("<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n",
-                     margin + axis_width, width - margin, y, y, attributes);
+  return svg::line(margin + axis_width, y, width - margin, y, attributes);
 }
 
 // 1, 2 or 5 times a power of ten, so that four to eight steps reach `top`.
@@ -176,11 +138,7 @@ std::string to_svg(const BarChart& chart) {
   const Colors colors = colors_of(chart.series);
   const double height =
       header_height + panel_height * static_cast<double>(chart.panels.size()) + footer_height;
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
-      "{1}\" font-family=\"DejaVu Sans, Verdana, sans-serif\">\n",
-      width, height);
-  svg += rectangle(0, 0, width, height, "#FFFFFF");
+  std::string svg;
   svg += text(margin, 40, {.size = 24, .weight = "bold"}, chart.title);
   svg += text(margin, 64, {.size = 14, .color = "#555555"}, chart.subtitle);
   svg += legend(chart, colors, 94);
@@ -190,22 +148,12 @@ std::string to_svg(const BarChart& chart) {
     y += panel_height;
   }
   svg += text(margin, height - 14, {.size = 12, .color = "#777777"}, chart.footer);
-  return svg + "</svg>\n";
+  return svg::document(width, height, svg);
 }
 
 std::vector<std::filesystem::path> write_chart(const BarChart& chart,
                                                const std::filesystem::path& path) {
-  const std::filesystem::path svg_path = path.string() + ".svg";
-  const std::filesystem::path png_path = path.string() + ".png";
-  if (!(std::ofstream(svg_path) << to_svg(chart))) {
-    throw std::runtime_error("cannot write " + svg_path.string());
-  }
-  const std::string converter = tests::find_program("rsvg-convert");
-  if (converter.empty()) return {svg_path};
-  const tests::ProgramResult result =
-      tests::ChildProgram(converter, {"-o", png_path.string(), svg_path.string()}).wait();
-  if (result.exit_code != 0) throw std::runtime_error(result.err);
-  return {svg_path, png_path};
+  return svg::write_files(to_svg(chart), path);
 }
 
 }  // namespace bench

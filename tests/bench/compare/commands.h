@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+#include <string_view>
+
 #include "tests/bench/compare/options.h"
 
 namespace bench {
@@ -11,5 +14,15 @@ namespace bench {
 int compare_rays(const Options& options);
 int compare_builds(const Options& options);
 int measure_orbit(const Options& options);
+int compare_kernels(const Options& options);
+int measure_exactness(const Options& options);
+
+struct Command {
+  std::string_view name;  // as on the command line
+  std::string_view what;
+  int (*run)(const Options& options);
+};
+
+std::span<const Command> commands();
 
 }  // namespace bench

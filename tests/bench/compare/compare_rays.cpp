@@ -11,6 +11,7 @@
 #include "tests/bench/compare/oracle.h"
 #include "tests/bench/compare/pinned_threads.h"
 #include "tests/bench/compare/ray_records.h"
+#include "tests/bench/compare/ray_runners.h"
 #include "tests/bench/compare/report_files.h"
 #include "tests/bench/compare/tracers.h"
 #include "tracer/bvh/build.h"
@@ -19,8 +20,6 @@ namespace bench {
 namespace {
 
 using tracer::Accel;
-
-constexpr size_t rays_a_task = 16 * rays_a_block;
 
 /// Trees and tracers of one scene.
 struct Contest {
@@ -58,52 +57,6 @@ Contest make_contest(const Scene& scene, BuilderChoice choice) {
   return contest;
 }
 
-/// A tracer ready to run on one set of rays.
-struct Runner {
-  const Tracer* tracer;
-  TraceRange trace;
-  std::vector<Answer> answers;
-  std::vector<double> seconds;
-
-  double run(int thread_count) {
-    return run_pinned(thread_count, answers.size(), rays_a_task,
-                      [&](size_t first, size_t last) { trace(first, last, answers); });
-  }
-};
-
-std::vector<Runner> make_runners(const std::vector<Tracer>& tracers, const RaySet& set) {
-  std::vector<Runner> runners;
-  for (const Tracer& tracer : tracers) {
-    TraceRange trace = tracer.prepare(set);
-    if (trace) {
-      runners.push_back(
-          {&tracer, std::move(trace), std::vector<Answer>(set.rays.size(), is_occluded), {}});
-    }
-  }
-  return runners;
-}
-
-// So few rays that the slowest tracer takes no longer than `seconds`, measured on one ray in 64.
-RaySet fitted(const RaySet& set, const std::vector<Tracer>& tracers, double seconds) {
-  constexpr size_t sample_stride = 64;
-  const RaySet sample = thinned(set, sample_stride);
-  double slowest = 0;
-  for (Runner& runner : make_runners(tracers, sample)) {
-    slowest = std::max(slowest, runner.run(1));
-  }
-  const double all = slowest * static_cast<double>(set.rays.size()) /
-                     static_cast<double>(std::max<size_t>(sample.rays.size(), 1));
-  return thinned(set, std::max<size_t>(static_cast<size_t>(all / seconds + 0.5), 1));
-}
-
-uint64_t count_differences(const Runner& runner, const Runner& other) {
-  uint64_t count = 0;
-  for (size_t i = 0; i < runner.answers.size(); ++i) {
-    count += runner.answers[i] != other.answers[i];
-  }
-  return count;
-}
-
 RayRecord make_record(const Runner& runner, const std::vector<Runner>& runners) {
   RayRecord record;
   record.tracer = runner.tracer->name;
@@ -118,17 +71,6 @@ RayRecord make_record(const Runner& runner, const std::vector<Runner>& runners) 
     record.ratios[other.tracer->name] = paired_ratio(other.seconds, runner.seconds);
   }
   return record;
-}
-
-// Round by round, each tracer once, so that noise meets all of them.
-void time_rounds(std::vector<Runner>& runners, int thread_count, int repeat_count) {
-  for (Runner& runner : runners) {
-    runner.seconds.clear();
-    runner.run(thread_count);
-  }
-  for (int round = 0; round < repeat_count; ++round) {
-    for (Runner& runner : runners) runner.seconds.push_back(runner.run(thread_count));
-  }
 }
 
 std::vector<RayRecord> compare_set(const Scene& scene, const Contest& contest, const RaySet& all,

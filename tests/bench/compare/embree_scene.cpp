@@ -68,6 +68,14 @@ CompactRay compact(const tracer::Ray& ray) {
           static_cast<float>(ray.t_max)};
 }
 
+RTCRayHit make_query(const CompactRay& ray) {
+  RTCRayHit query;
+  query.ray = make_ray(ray);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return query;
+}
+
 template <Query query>
 void trace_one(RTCScene scene, RTCIntersectContext& context, const CompactRay& ray,
                Answer& answer) {
@@ -76,10 +84,7 @@ void trace_one(RTCScene scene, RTCIntersectContext& context, const CompactRay& r
     rtcOccluded1(scene, &context, &occlusion);
     answer = occlusion.tfar < 0 ? is_occluded : tracer::no_primitive;
   } else {
-    RTCRayHit hit;
-    hit.ray = make_ray(ray);
-    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit hit = make_query(ray);
     rtcIntersect1(scene, &context, &hit);
     answer = hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? tracer::no_primitive : hit.hit.primID;
   }
@@ -151,6 +156,10 @@ TraceRange prepare_packets(RTCScene scene, const RaySet& set) {
 }
 
 }  // namespace
+
+RTCRayHit make_query(const tracer::Ray& ray) {
+  return make_query(compact(ray));
+}
 
 std::vector<Tracer> embree_tracers(const EmbreeScene& standard, const EmbreeScene& robust) {
   const auto with = [](const EmbreeScene& scene, auto prepare) {

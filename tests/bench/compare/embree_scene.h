@@ -36,6 +36,9 @@ class EmbreeScene {
   RTCScene scene_;
 };
 
+/// For rtcIntersect1.
+RTCRayHit make_query(const tracer::Ray& ray);
+
 /// Both scenes are built and outlive the tracers.
 std::vector<Tracer> embree_tracers(const EmbreeScene& standard, const EmbreeScene& robust);
 

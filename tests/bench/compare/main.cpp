@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// boxwood_compare rays|build|orbit: see --help.
+// boxwood_compare COMMAND: see --help.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
@@ -12,9 +13,8 @@ int main(int argument_count, char** arguments) {
   try {
     const auto options = bench::parse_options(argument_count, arguments);
     if (!options) return 0;
-    if (options->command == "rays") return bench::compare_rays(*options);
-    if (options->command == "build") return bench::compare_builds(*options);
-    return bench::measure_orbit(*options);
+    return std::ranges::find(bench::commands(), options->command, &bench::Command::name)
+        ->run(*options);
   } catch (const CLI::Error& error) {
     fmt::print(stderr, "bench: {}\n", error.what());
     return 2;

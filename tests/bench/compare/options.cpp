@@ -7,6 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "tests/bench/compare/commands.h"
+
 namespace bench {
 namespace {
 
@@ -18,6 +20,20 @@ std::string list_of_scenes() {
   return list;
 }
 
+std::string list_of_commands() {
+  std::string list;
+  for (const Command& command : commands()) {
+    list += fmt::format("  {:<9} {}\n", command.name, command.what);
+  }
+  return list;
+}
+
+std::vector<std::string> command_names() {
+  std::vector<std::string> names;
+  for (const Command& command : commands()) names.emplace_back(command.name);
+  return names;
+}
+
 }  // namespace
 
 std::optional<Options> parse_options(int argument_count, char** arguments) {
@@ -25,10 +41,10 @@ std::optional<Options> parse_options(int argument_count, char** arguments) {
   bool is_quick = false;
   bool has_all_builders = false;
   CLI::App app("Compares Boxwood with Embree, and measures what a user waits for");
-  app.footer("Scenes:\n" + list_of_scenes());
-  app.add_option("command", options.command, "rays, build or orbit")
+  app.footer("Commands:\n" + list_of_commands() + "\nScenes:\n" + list_of_scenes());
+  app.add_option("command", options.command, "what to measure")
       ->required()
-      ->check(CLI::IsMember({"rays", "build", "orbit"}));
+      ->check(CLI::IsMember(command_names()));
   app.add_option("scenes,--scenes", options.scenes, "names, separated by commas")->delimiter(',');
   app.add_flag("--quick", is_quick, "few small scenes, 3 repeats: done in a minute");
   app.add_flag("--builders", has_all_builders, "rays: trace the trees of every builder");

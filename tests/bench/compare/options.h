@@ -13,7 +13,7 @@ namespace bench {
 enum class BuilderChoice { standard, all };
 
 struct Options {
-  std::string command;              // rays, build or orbit
+  std::string command;              // a name of commands()
   std::vector<std::string> scenes;  // empty: all, or those of a quick run
   Effort effort = Effort::full;
   int repeat_count = 5;

@@ -8,8 +8,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/bench/compare/bar_chart.h"
-
 namespace bench {
 
 /// Writes PATH.json, an array of the records, with its folder. Throws std::runtime_error.
@@ -24,9 +22,8 @@ void write_json(const std::filesystem::path& path, const Records& records) {
 }
 
 /// PATH.json and the chart, PATH.svg and PATH.png; prints what it wrote.
-template <class Records>
-void write_report(const std::filesystem::path& path, const Records& records,
-                  const BarChart& chart) {
+template <class Records, class Chart>
+void write_report(const std::filesystem::path& path, const Records& records, const Chart& chart) {
   write_json(path, records);
   for (const auto& written : write_chart(chart, path)) fmt::print("{}\n", written.string());
 }

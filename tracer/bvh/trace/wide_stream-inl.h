@@ -25,10 +25,12 @@ namespace tracer {
 namespace HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
 
-size_t ClosestHitsStream(const WideTree&, std::span<const Ray>, const StopFlag&, std::span<Hit>) {
+inline size_t ClosestHitsStream(const WideTree&, std::span<const Ray>, const StopFlag&,
+                                std::span<Hit>) {
   return 0;
 }
-size_t OccludedStream(const WideTree&, std::span<const Ray>, const StopFlag&, std::span<uint8_t>) {
+inline size_t OccludedStream(const WideTree&, std::span<const Ray>, const StopFlag&,
+                             std::span<uint8_t>) {
   return 0;
 }
 
@@ -61,7 +63,7 @@ HWY_INLINE hn::Vec<UintLanes> sort_first_four(hn::Vec<UintLanes> v) {
   return hn::IfThenElse(is_inner, keep_larger(hn::Eq(place, hn::Set(du, 1)), neighbour), v);
 }
 
-template <Query query, Slabs slabs>
+template <Query query, Slabs slabs, class Leaf>
 class Stream {
  public:
   Stream(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop)
@@ -96,7 +98,7 @@ class Stream {
     WideChild current;
     uint32_t stack_size;
     uint32_t ray;
-    uint32_t possible;  // lanes of the current block
+    typename Leaf::Found found;  // in the current block
     Hit best;
   };
 
@@ -212,11 +214,10 @@ class Stream {
     for (const uint8_t index : slots) {
       Slot& slot = slots_[index];
       const uint32_t block = slot.current.index();
-      slot.possible =
-          hit_triangles<Verdicts::possible, slabs, Flow::straight>(
-              block_rows(block), tree_.block_infos[block], slot.constants, slot.entry, slot.t_far)
-              .possible;
-      candidates.add_if(slot.possible != 0, index);
+      slot.found = Leaf::template find<Verdicts::possible, slabs, Flow::straight>(
+          block_rows(block), tree_.block_infos[block], slot.constants, rays_[slot.ray], slot.entry,
+          slot.t_far);
+      candidates.add_if(slot.found.possible != 0, index);
     }
     for (const uint8_t index : candidates.take_all()) test_exactly(slots_[index], stacks_[index]);
     for (const uint8_t index : slots) {
@@ -233,11 +234,10 @@ class Stream {
   }
 
   void test_exactly(Slot& slot, StreamStack& stack) const {
-    const size_t width = hn::Lanes(Floats());
     const float* rows = block_rows(slot.current.index());
     bool is_closer = false;
-    for (uint32_t bits = slot.possible; bits != 0; bits &= bits - 1) {
-      const auto hit = hit_exactly(rows + std::countr_zero(bits), width, rays_[slot.ray]);
+    for (uint32_t bits = slot.found.possible; bits != 0; bits &= bits - 1) {
+      const Hit hit = Leaf::hit(rows, slot.found, std::countr_zero(bits), rays_[slot.ray]);
       if (!hit.is_hit() || !hit.is_closer_than(slot.best)) continue;
       slot.best = hit;
       is_closer = true;
@@ -282,26 +282,26 @@ class Stream {
 };
 
 /// Slabs that pay for the first ray do for most.
-template <Query query, class Answer>
+template <Query query, class Leaf = ExactLeaf, class Answer>
 size_t answer_stream(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop,
                      const Answer& answer) {
   RayConstants constants;
   if (rays.empty() || !prepare(tree, rays[0], constants)) return 0;
   if (constants.is_far_reaching) {
-    return Stream<query, Slabs::exact>(tree, rays, stop).run(answer);
+    return Stream<query, Slabs::exact, Leaf>(tree, rays, stop).run(answer);
   }
-  return Stream<query, Slabs::fused>(tree, rays, stop).run(answer);
+  return Stream<query, Slabs::fused, Leaf>(tree, rays, stop).run(answer);
 }
 
 // NOLINTBEGIN(misc-definitions-in-headers): each instruction set has a namespace of its own.
-size_t ClosestHitsStream(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop,
-                         std::span<Hit> hits) {
+inline size_t ClosestHitsStream(const WideTree& tree, std::span<const Ray> rays,
+                                const StopFlag& stop, std::span<Hit> hits) {
   return answer_stream<Query::closest_hit>(tree, rays, stop,
                                            [&](size_t ray, const Hit& hit) { hits[ray] = hit; });
 }
 
-size_t OccludedStream(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop,
-                      std::span<uint8_t> is_occluded) {
+inline size_t OccludedStream(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop,
+                             std::span<uint8_t> is_occluded) {
   return answer_stream<Query::occluded>(tree, rays, stop, [&](size_t ray, const Hit& hit) {
     is_occluded[ray] = hit.is_hit() ? 1 : 0;
   });

@@ -178,7 +178,23 @@ HWY_INLINE Hit hit_exactly(const float* HWY_RESTRICT v, size_t width, const Ray&
   return {found->t, found->u, found->v, std::bit_cast<uint32_t>(v[9 * width])};
 }
 
-template <Query query, Slabs slabs, class Probe>
+/// The triangles of a block, decided exactly. Benchmarks traverse with leaves of other kinds.
+struct ExactLeaf {
+  using Found = BlockHits;
+
+  template <Verdicts verdicts, Slabs slabs, Flow flow>
+  static HWY_INLINE Found find(const float* HWY_RESTRICT rows, const WideTree::BlockInfo& info,
+                               const RayConstants& c, const Ray&, float entry, float t_far) {
+    return hit_triangles<verdicts, slabs, flow>(rows, info, c, entry, t_far);
+  }
+  /// Of a lane that is possible.
+  static HWY_INLINE Hit hit(const float* HWY_RESTRICT rows, const Found&, int lane,
+                            const Ray& ray) {
+    return hit_exactly(rows + lane, hn::Lanes(Floats()), ray);
+  }
+};
+
+template <Query query, Slabs slabs, class Leaf, class Probe>
 HWY_NOINLINE void traverse(const WideTree& tree, const Ray& ray, const RayConstants& constants,
                            const StopFlag& stop, Probe probe, Hit& best) {
   const Floats d;
@@ -211,8 +227,8 @@ HWY_NOINLINE void traverse(const WideTree& tree, const Ray& ray, const RayConsta
         const float* rows = blocks + block * (WideTree::rows_a_block * width);
         constexpr Verdicts verdicts =
             query == Query::occluded ? Verdicts::possible_and_certain : Verdicts::possible;
-        const BlockHits hits =
-            hit_triangles<verdicts, slabs, Flow::leaves_early>(rows, info, constants, entry, t_far);
+        const auto hits = Leaf::template find<verdicts, slabs, Flow::leaves_early>(
+            rows, info, constants, ray, entry, t_far);
         if constexpr (query == Query::occluded) {
           if (hits.certain != 0) {
             best.primitive = 0;
@@ -221,7 +237,7 @@ HWY_NOINLINE void traverse(const WideTree& tree, const Ray& ray, const RayConsta
         }
         for (uint32_t bits = hits.possible; bits != 0; bits &= bits - 1) {
           probe.exact_test();
-          const Hit hit = hit_exactly(rows + std::countr_zero(bits), width, ray);
+          const Hit hit = Leaf::hit(rows, hits, std::countr_zero(bits), ray);
           if (!hit.is_hit()) continue;
           if constexpr (query == Query::occluded) {
             best = hit;
@@ -243,15 +259,15 @@ HWY_NOINLINE void traverse(const WideTree& tree, const Ray& ray, const RayConsta
 }
 
 /// False for a ray out of the filter's range.
-template <Query query, class Probe>
+template <Query query, class Leaf = ExactLeaf, class Probe>
 HWY_INLINE bool answer(const WideTree& tree, const Ray& ray, const StopFlag& stop, Probe probe,
                        Hit& hit) {
   RayConstants constants;
   if (HWY_UNLIKELY(!prepare(tree, ray, constants))) return false;
   if (HWY_LIKELY(!constants.is_far_reaching)) {
-    traverse<query, Slabs::fused>(tree, ray, constants, stop, probe, hit);
+    traverse<query, Slabs::fused, Leaf>(tree, ray, constants, stop, probe, hit);
   } else {
-    traverse<query, Slabs::exact>(tree, ray, constants, stop, probe, hit);
+    traverse<query, Slabs::exact, Leaf>(tree, ray, constants, stop, probe, hit);
   }
   return true;
 }
