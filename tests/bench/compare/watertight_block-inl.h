@@ -62,11 +62,11 @@ HWY_INLINE MetFloats meet_woop(const float* HWY_RESTRICT rows, const RayConstant
   Vectors<Lanes> v[3];
   for (size_t corner = 0; corner < 3; ++corner) {
     const float* row = rows + 3 * corner * width;
-    const auto z = hn::Sub(hn::Load(d, row + c.row_z), hn::Set(d, c.origin_z));
-    const auto x = hn::Sub(hn::Load(d, row + c.row_x), hn::Set(d, c.origin_x));
-    const auto y = hn::Sub(hn::Load(d, row + c.row_y), hn::Set(d, c.origin_y));
-    v[corner] = {hn::NegMulAdd(hn::Set(d, c.shear_x), z, x),
-                 hn::NegMulAdd(hn::Set(d, c.shear_y), z, y), z};
+    const auto z = hn::Sub(hn::Load(d, row + c.leaf_row[2]), hn::Set(d, c.leaf_origin[2]));
+    const auto x = hn::Sub(hn::Load(d, row + c.leaf_row[0]), hn::Set(d, c.leaf_origin[0]));
+    const auto y = hn::Sub(hn::Load(d, row + c.leaf_row[1]), hn::Set(d, c.leaf_origin[1]));
+    v[corner] = {hn::NegMulAdd(hn::Set(d, c.shear[0]), z, x),
+                 hn::NegMulAdd(hn::Set(d, c.shear[1]), z, y), z};
   }
   auto e0 = woop_edge(v[2], v[1]);
   auto e1 = woop_edge(v[0], v[2]);

@@ -5,6 +5,10 @@ namespace tracer {
 
 std::optional<Binning> Binning::finer(const Bins& bins) const {
   const uint32_t all = bins.left_count({.axis = 0, .bin = bin_count_});
+  const auto is_crowded = [&](uint32_t count) {
+    return count > all / 2 &&
+           uint64_t{count} * static_cast<uint32_t>(bin_count_) > 8 * uint64_t{all};
+  };
   const float times = static_cast<float>(max_bin_count) / static_cast<float>(bin_count_);
   Binning finer = *this;
   finer.bin_count_ = max_bin_count;
@@ -14,7 +18,7 @@ std::optional<Binning> Binning::finer(const Bins& bins) const {
   for (int axis = 0; axis < 3; ++axis) {
     const int fullest = bins.fullest(axis);
     const float scale = scale_[axis] * static_cast<float>(max_bin_count);
-    if (scale_[axis] == 0 || !(scale < Box4::infinity) || bins.count(axis, fullest) <= all / 2) {
+    if (scale_[axis] == 0 || !(scale < Box4::infinity) || !is_crowded(bins.count(axis, fullest))) {
       continue;
     }
     finer.origin_[axis] += static_cast<float>(fullest) / scale_[axis];

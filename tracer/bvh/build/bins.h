@@ -42,7 +42,8 @@ class Binning {
     const Float4 last = Float4{} + static_cast<float>(bin_count_ - 1);
     return __builtin_convertvector(min_of(max_of(position, Float4{}), last), Int4);
   }
-  /// Axes whose fullest bin holds more than half of the primitives have all their bins there, so
+  /// Axes whose fullest bin holds more than half of the primitives, and more than eight bins
+  /// would if they were spread evenly, have all their bins there, so
   /// that a dense model on a wide floor is told apart from it. Nothing where there is none.
   std::optional<Binning> finer(const Bins& bins) const;
 
