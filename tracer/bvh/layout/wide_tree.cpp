@@ -26,6 +26,7 @@ namespace {
 constexpr uint32_t largest_serial_count = 16384;
 
 constexpr size_t core_cache_bytes = size_t{1} << 21;
+constexpr size_t shared_cache_bytes = 16 << 20;
 
 class WideTreeWriter {
  public:
@@ -46,6 +47,7 @@ class WideTreeWriter {
     wide_.block_infos.resize(root.block_count);
     wide_.expected_steps = collapse_.expected_steps();
     wide_.is_larger_than_cache = wide_.bytes() > core_cache_bytes;
+    wide_.is_larger_than_shared_cache = wide_.bytes() > shared_cache_bytes;
     const Box& bounds = tree_.nodes[0].bounds;
     wide_.max_coordinate =
         static_cast<float>(std::max(max_abs(Vec3d(bounds.min)), max_abs(Vec3d(bounds.max))));

@@ -64,6 +64,7 @@ struct WideTree {
   float typical_extent = 0;           // median of block_infos' extents, of 1024 at most
   float expected_steps = 0;           // nodes and blocks that a random line through the root meets
   bool is_larger_than_cache = false;  // a core's own
+  bool is_larger_than_shared_cache = false;  // of all cores
 
   size_t bytes() const {
     return nodes.bytes() + blocks.bytes() + block_infos.size() * sizeof(BlockInfo);

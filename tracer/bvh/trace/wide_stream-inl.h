@@ -148,12 +148,15 @@ class Stream {
       for (size_t row = 0; row < WideTree::rows_a_node; ++row) {
         hwy::Prefetch(rows + row * hn::Lanes(Floats()));
       }
-      // Blocks have more rows; a node's first is asked for again.
-      const size_t more = is_leaf ? WideTree::rows_a_node : 0;
-      for (size_t row = 0; row < WideTree::rows_a_block - WideTree::rows_a_node; ++row) {
-        hwy::Prefetch(rows + (more + row) * hn::Lanes(Floats()));
+      if (tree_.is_larger_than_shared_cache) {
+        // Blocks have more rows; a node's first are asked for again.
+        const float* const more =
+            rows + (is_leaf ? WideTree::rows_a_node * hn::Lanes(Floats()) : 0);
+        for (size_t row = 0; row < WideTree::rows_a_block - WideTree::rows_a_node; ++row) {
+          hwy::Prefetch(more + row * hn::Lanes(Floats()));
+        }
+        hwy::Prefetch(&tree_.block_infos[is_leaf ? child.index() : 0]);
       }
-      hwy::Prefetch(&tree_.block_infos[is_leaf ? child.index() : 0]);
     }
     const bool is_done = child.bits == no_child;
     at_node_.add_if(!is_leaf, index);

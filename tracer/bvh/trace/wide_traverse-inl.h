@@ -18,7 +18,7 @@
 #include "tracer/bvh/build_settings.h"
 #include "tracer/bvh/trace/wide_kernels.h"
 #include "tracer/bvh/trace/wide_leaf-inl.h"
-#include "tracer/geometry/triangle.h"
+#include "tracer/geometry/triangle-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tracer {
@@ -173,7 +173,7 @@ HWY_INLINE Hit hit_exactly(const float* HWY_RESTRICT v, size_t width, const Ray&
   const auto vertex = [&](size_t row) {
     return Vec3f(v[row * width], v[(row + 1) * width], v[(row + 2) * width]);
   };
-  const auto found = intersect_triangle(ray, vertex(0), vertex(3), vertex(6));
+  const auto found = exact_triangle::intersect(ray, vertex(0), vertex(3), vertex(6));
   if (!found) return {};
   return {found->t, found->u, found->v, std::bit_cast<uint32_t>(v[9 * width])};
 }
