@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/exact_integer.h"
+#include "tests/support/exact_hit.h"
 #include "tests/support/random_source.h"
 
 namespace tracer {
@@ -19,29 +19,10 @@ std::optional<TriangleHit> intersect(const Ray& ray, const Triangle& triangle) {
   return intersect_triangle(ray, triangle.v0, triangle.v1, triangle.v2);
 }
 
-struct ExactAnswer {
-  bool line_hits;
-  long double t;
-};
-
-ExactAnswer exact_answer(const Ray& ray, const Triangle& triangle) {
-  const ExactVec3 direction = exact_vec3(Vec3f(0), ray.direction);
-  const ExactVec3 a = exact_vec3(ray.origin, triangle.v0);
-  const ExactVec3 b = exact_vec3(ray.origin, triangle.v1);
-  const ExactVec3 c = exact_vec3(ray.origin, triangle.v2);
-  const ExactInteger u = exact_triple(direction, c, b);
-  const ExactInteger v = exact_triple(direction, a, c);
-  const ExactInteger w = exact_triple(direction, b, a);
-  const bool negative = u.sign() < 0 || v.sign() < 0 || w.sign() < 0;
-  const bool positive = u.sign() > 0 || v.sign() > 0 || w.sign() > 0;
-  if (negative == positive) return {false, 0};
-  return {true, exact_triple(a, c, b).scaled_value() / (u + v + w).scaled_value()};
-}
-
 testing::AssertionResult is_exact(const Ray& ray, const Triangle& triangle) {
-  const ExactAnswer exact = exact_answer(ray, triangle);
+  const ExactHit exact = exact_hit(ray, triangle.v0, triangle.v1, triangle.v2);
   const auto hit = intersect(ray, triangle);
-  if (hit.has_value() != (exact.line_hits && exact.t >= 0)) {
+  if (hit.has_value() != (exact.is_hit && exact.t >= 0)) {
     return testing::AssertionFailure() << (hit ? "a false hit" : "a lost hit");
   }
   if (!hit) return testing::AssertionSuccess();
