@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Rays in the production path: every layout and instruction set, alone, in bundles and streams.
 #include <gtest/gtest.h>
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
 
 #include "tests/numerics/rays.h"
 #include "tests/numerics/stress.h"
@@ -324,6 +327,37 @@ TEST(NumericsTraversal, rays_that_are_not_finite_hit_nothing_and_return) {
     });
   });
 }
+
+#if defined(__SSE2__)
+/// Denormals are taken and given as 0 on this thread, as some hosts of a library have it.
+class FlushToZero {
+ public:
+  FlushToZero() { _mm_setcsr(before_ | 0x8040); }
+  ~FlushToZero() { _mm_setcsr(before_); }
+  FlushToZero(const FlushToZero&) = delete;
+  FlushToZero& operator=(const FlushToZero&) = delete;
+
+ private:
+  const unsigned before_ = _mm_getcsr();
+};
+
+TEST(NumericsTraversal, flushing_denormals_to_zero_changes_no_answer_at_sizes_from_1e_6_to_1e6) {
+  const uint64_t group_count = trials(60, 2000);
+  for (const float size : {1e-6f, 1.0f, 1e6f}) {
+    const auto mesh = std::make_shared<const Mesh>(scaled(rough_ball(5, 0.1f, 81), size));
+    const JudgedRays judged = judged_rays(mesh, group_count);
+    const BvhTree tree = build_tree(builders().front(), *mesh);
+    for_each_accel(mesh, tree, [&](const std::string& way, const Accel& accel) {
+      const std::string property =
+          "answers with denormals flushed, size " + literal(size) + ", " + way;
+      expect_in_all_trials(property, 81, group_count, [&](Trial& trial) {
+        const FlushToZero flush;
+        check_answers(trial, accel, judged.rays_of(trial.index), judged.hits_of(trial.index));
+      });
+    });
+  }
+}
+#endif
 
 }  // namespace
 }  // namespace tracer::stress

@@ -72,6 +72,15 @@ Aim far_aim(RandomSource& random) {
   const Vec3f targets[] = {point_in(t, random), glm::mix(t.v1, t.v2, random.unit()), t.v0};
   return {ray_to(targets[random.integer(0, 2)], std::exp2(random.between(0, 20)), random), t};
 }
+// From the triangle itself, and along its edges.
+Aim aim_from_within(RandomSource& random) {
+  const TestTriangle t = any_triangle(random);
+  const Vec3f on_edge = glm::mix(t.v0, t.v1, random.unit());
+  const Vec3f origins[] = {on_edge, t.v2, point_in(t, random)};
+  const Vec3f directions[] = {random.vector(-1, 1), t.v1 - t.v0, t.v2 - on_edge};
+  return {{.origin = origins[random.integer(0, 2)], .direction = directions[random.integer(0, 2)]},
+          t};
+}
 Aim offset_aim(RandomSource& random) {
   const Vec3f offset(1e5f, -7e4f, 3e4f);
   const TestTriangle t = any_triangle(random);
@@ -107,10 +116,15 @@ struct AimKind {
   Aim (*make)(RandomSource& random);
 };
 constexpr AimKind aim_kinds[] = {
-    {"at random", random_aim},      {"at edges", edge_aim},
-    {"at vertices", vertex_aim},    {"almost in the plane", grazing_aim},
-    {"from afar, to 1e6", far_aim}, {"at an offset of 1e5", offset_aim},
-    {"on a lattice", lattice_aim},  {"of any finite bits", any_bits_aim},
+    {"at random", random_aim},
+    {"at edges", edge_aim},
+    {"at vertices", vertex_aim},
+    {"almost in the plane", grazing_aim},
+    {"from afar, to 1e6", far_aim},
+    {"at an offset of 1e5", offset_aim},
+    {"from within", aim_from_within},
+    {"on a lattice", lattice_aim},
+    {"of any finite bits", any_bits_aim},
 };
 
 TEST(NumericsTriangles, verdicts_are_those_of_exact_integers) {
