@@ -152,6 +152,7 @@ void expect_holds(std::string_view property, const Tally& tally) {
 void expect_holds_and_control_fails(std::string_view property, const Tally& tally,
                                     double least_per_million) {
   expect_holds(property, tally);
+  if (sanitizer_divisor > 1) return;  // Too few trials to tell.
   EXPECT_GE(tally.control_failures_per_million(), least_per_million)
       << property << ": the control holds too often for this test to tell, in "
       << tally.control_checks;

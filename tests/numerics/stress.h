@@ -102,7 +102,8 @@ Tally run_trials(std::string_view property, uint32_t seed, uint64_t trial_count,
 
 /// Fails the test, with replays, unless there were checks and all held; notes the result.
 void expect_holds(std::string_view property, const Tally& tally);
-/// The same, and fails unless the control fails at least so often: else the test could not fail.
+/// The same, and fails unless the control fails at least so often, else the test could not fail;
+/// not asked under a sanitizer.
 void expect_holds_and_control_fails(std::string_view property, const Tally& tally,
                                     double least_per_million);
 
