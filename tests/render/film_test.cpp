@@ -30,13 +30,6 @@ TEST(Tiles, come_from_the_centre_outwards) {
   }
 }
 
-TEST(Film, a_hundred_million_samples_keep_their_mean) {
-  Film film({1, 1});
-  for (int i = 0; i < 100'000'000; ++i) film.add(0, 0, Vec3d(0.1));
-  EXPECT_EQ(film.sample_count(0, 0), 100'000'000u);
-  EXPECT_FLOAT_EQ(film.mean(0, 0).x, 0.1f);
-}
-
 TEST(Film, is_without_holes_after_the_coarsest_pass) {
   Film film({100, 50});
   for (int y = 0; y < 50; y += 8) {

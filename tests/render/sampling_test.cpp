@@ -25,12 +25,6 @@ double chi_square_of_equal(const std::vector<int>& counts) {
   return sum;
 }
 
-TEST(Sampler, is_never_1_and_reaches_both_ends) {
-  EXPECT_LT(to_unit_float(0xffffffffu), 1.0f);
-  EXPECT_EQ(to_unit_float(0xffffffffu), 1.0f - 0x1p-24f);
-  EXPECT_EQ(to_unit_float(0), 0.0f);
-}
-
 TEST(Sampler, is_uniform_over_pixels_samples_and_dimensions) {
   constexpr int cells = 32;
   std::vector<int> pixels(cells * cells), samples(cells * cells), dimensions(cells * cells);

@@ -12,9 +12,13 @@ namespace tracer {
 /// The same sequence for the same seed, everywhere.
 class RandomSource {
  public:
-  explicit RandomSource(uint32_t seed) : seed_(seed) {}
+  /// Streams of one seed have nothing in common.
+  explicit RandomSource(uint32_t seed, uint64_t stream = 0)
+      : seed_(seed),
+        stream_low_(0x9e3779b9u ^ static_cast<uint32_t>(stream)),
+        stream_high_(7u + static_cast<uint32_t>(stream >> 32)) {}
 
-  uint32_t word() { return hash_words({seed_, ++count_, 0x9e3779b9u, 7u}).x; }
+  uint32_t word() { return hash_words({seed_, ++count_, stream_low_, stream_high_}).x; }
   float unit() { return to_unit_float(word()); }
   float between(float low, float high) { return low + (high - low) * unit(); }
   int integer(int low, int high) {
@@ -38,6 +42,8 @@ class RandomSource {
 
  private:
   uint32_t seed_;
+  uint32_t stream_low_;
+  uint32_t stream_high_;
   uint32_t count_ = 0;
 };
 

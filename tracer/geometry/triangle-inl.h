@@ -83,11 +83,13 @@ Quotient exact_distance(const Ray& ray, const Vec3f& v0, const Vec3f& v1, const 
   if (quotient.numerator * weights.sum() < 0 && std::abs(quotient.numerator) > numerator_bound) {
     return std::nullopt;
   }
-  if (numerator_bound > quotient_part_error * std::abs(quotient.numerator) ||
-      determinant_error * speed * normal_bound >
-          quotient_part_error * std::abs(quotient.denominator)) {
+  const bool is_grazing = determinant_error * speed * normal_bound >
+                          quotient_part_error * std::abs(quotient.denominator);
+  if (is_grazing || numerator_bound > quotient_part_error * std::abs(quotient.numerator)) {
     quotient = exact_distance(ray, v0, v1, v2);
   }
+  // The smaller the determinant, the more the errors of the weights count.
+  if (is_grazing && certain) weights = exact_weights(ray, v0, v1, v2);
   const double t = quotient.numerator / quotient.denominator;
   if (!(t >= ray.t_min && t <= ray.t_max)) return std::nullopt;
   const double weight1 = weights.v / weights.sum();

@@ -4,6 +4,13 @@
 #include "tracer/base/parallel.h"
 
 namespace tracer {
+namespace {
+
+// That are looked at for one node: where all boxes overlap, nothing else bounds a search, and
+// rounds would take time in the square of the nodes.
+constexpr int most_places = 1 << 14;
+
+}  // namespace
 
 ReinsertionSearch::ReinsertionSearch(std::span<const BvhNode> nodes,
                                      std::span<const uint32_t> parents)
@@ -21,9 +28,10 @@ Reinsertion ReinsertionSearch::find(uint32_t node) const {
   uint32_t pivot = parents_[node];
   uint32_t other = sibling(node);
   double saved = half_areas_[pivot];
+  int places_left = most_places;
   Box4 rest;  // of the pivot without the node
   while (true) {
-    search_below(other, box, saved, best);
+    search_below(other, box, saved, best, places_left);
     rest.extend(Box4(nodes_[other].bounds));
     if (pivot == 0) return best;
     if (pivot != parents_[node]) saved += half_areas_[pivot] - rest.half_area();
@@ -35,7 +43,7 @@ Reinsertion ReinsertionSearch::find(uint32_t node) const {
 // The node put beside some node below `root` costs their common box and the growth of all boxes
 // from `root` down to there. Growth alone, and the node's own area, bound what is below.
 void ReinsertionSearch::search_below(uint32_t root, const Box4& box, double saved,
-                                     Reinsertion& best) const {
+                                     Reinsertion& best, int& places_left) const {
   struct Place {
     uint32_t node;
     double saved;  // less the growth above
@@ -44,7 +52,7 @@ void ReinsertionSearch::search_below(uint32_t root, const Box4& box, double save
   std::array<Place, max_tree_depth + 2> stack;
   size_t size = 0;
   stack[size++] = {root, saved};
-  while (size > 0) {
+  while (size > 0 && places_left-- > 0) {
     const Place place = stack[--size];
     if (place.saved - least_cost <= best.gain) continue;
     const BvhNode& node = nodes_[place.node];

@@ -30,7 +30,8 @@ class ReinsertionSearch {
   Reinsertion find(uint32_t node) const;
 
  private:
-  void search_below(uint32_t root, const Box4& box, double saved, Reinsertion& best) const;
+  void search_below(uint32_t root, const Box4& box, double saved, Reinsertion& best,
+                    int& places_left) const;
   uint32_t sibling(uint32_t node) const {
     const uint32_t first = nodes_[parents_[node]].first;
     return first == node ? first + 1 : first;
