@@ -141,6 +141,15 @@ class Validation {
 
 }  // namespace
 
+void refit(BvhTree& tree) {
+  for (size_t i = tree.nodes.size(); i-- > 0;) {
+    BvhNode& node = tree.nodes[i];
+    if (node.is_leaf()) continue;
+    node.bounds = tree.nodes[node.first].bounds;
+    node.bounds.extend(tree.nodes[node.first + 1].bounds);
+  }
+}
+
 std::string validate(const BvhTree& tree, const Primitives& primitives, int max_depth) {
   return Validation(tree, primitives, max_depth).fault();
 }

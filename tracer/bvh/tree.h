@@ -36,6 +36,9 @@ struct BvhTree {
   }
 };
 
+/// Makes the bounds of each inner node those of its children, from the leaves upward.
+void refit(BvhTree& tree);
+
 /// Empty when every invariant of the tree over `primitives` holds, else the first that does not, in
 /// words: every primitive in a leaf, in the order of the leaves, bounds those of what is below bit
 /// for bit, no node reached twice, no leaf deeper than `max_depth` (the root has depth 0). Where

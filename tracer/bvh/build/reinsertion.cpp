@@ -121,12 +121,7 @@ class Round {
     ordered.primitives.reserve(tree_.primitives.size());
     ordered.nodes.resize(1);
     place(ordered, 0, 0);
-    for (size_t i = ordered.nodes.size(); i-- > 0;) {
-      BvhNode& node = ordered.nodes[i];
-      if (node.is_leaf()) continue;
-      node.bounds = ordered.nodes[node.first].bounds;
-      node.bounds.extend(ordered.nodes[node.first + 1].bounds);
-    }
+    refit(ordered);
     return ordered;
   }
 

@@ -59,7 +59,10 @@ class SpatialSplitBuild {
     root_area_ = all.bounds.boxes.half_area();
     small_costs_.emplace(unit_scale(all.bounds.boxes.box()), settings_);
     const std::unique_ptr<TreePart> root = subtree(all, 0);
-    return join(*root);
+    BvhTree tree = join(*root);
+    // Parts of a part can be less than it, as all are a little too large.
+    if (primitives_.slice) refit(tree);
+    return tree;
   }
 
  private:
