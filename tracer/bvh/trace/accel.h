@@ -48,12 +48,11 @@ Accel make_accel(std::shared_ptr<const Mesh> mesh, std::shared_ptr<const BvhTree
 Accel make_accel(std::shared_ptr<const Mesh> mesh, std::optional<BvhTree> tree,
                  const Layout& layout, Progress& progress);
 
-/// Bundles are tried seldom where they were given up.
+/// Bundles are tried seldom where more than a few were given up.
 class BundleTries {
  public:
   bool skips_next() { return to_skip_ > 0 && to_skip_-- > 0; }
-  void note_failure();
-  void note_success();
+  void note(int answered_count, int given_up_count);
 
  private:
   unsigned failures_ = 0;  // in a row

@@ -83,8 +83,7 @@ size_t trace_many(const WideTree* tree, std::span<const Ray> rays, const StopFla
     const BundleVerdicts verdicts =
         kernels.bundles(*tree, rays.subspan(first, count), kernels.leaves_a_ray, stop,
                         answers.subspan(first, count));
-    if (verdicts.given_up != 0) tries.note_failure();
-    if (verdicts.answered != 0) tries.note_success();
+    tries.note(std::popcount(verdicts.answered), std::popcount(verdicts.given_up));
     for (uint32_t bits = verdicts.answered; bits != 0; bits &= bits - 1) {
       trace_rest(first + static_cast<size_t>(std::countr_zero(bits)) * bundle_size);
       const size_t end = std::min(rest + bundle_size, last);
@@ -98,13 +97,10 @@ size_t trace_many(const WideTree* tree, std::span<const Ray> rays, const StopFla
 
 }  // namespace
 
-void BundleTries::note_failure() {
-  failures_ = std::min(failures_ + 1, most_failures);
+void BundleTries::note(int answered_count, int given_up_count) {
+  if (answered_count + given_up_count == 0) return;
+  failures_ = 3 * given_up_count > answered_count ? std::min(failures_ + 1, most_failures) : 0;
   to_skip_ = (1u << failures_) - 1;
-}
-
-void BundleTries::note_success() {
-  failures_ = to_skip_ = 0;
 }
 
 void RayCaster::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) {
