@@ -38,9 +38,9 @@ Ray aimed_ray(const Mesh& mesh, RandomSource& random) {
   const float s = random.unit();
   const float r = random.unit() * (1 - s);
   const Vec3f targets[] = {a, a + s * to_b, a + s * to_b + r * to_c};
-  const float distances[] = {0, 1, 30, 1000};
+  const float distances[] = {0, 1, 30, 1000, 1e6f, 1e9f};
   const float distance =
-      static_cast<float>(glm::length(Vec3d(to_b))) * distances[random.integer(0, 3)];
+      static_cast<float>(glm::length(Vec3d(to_b))) * distances[random.integer(0, 5)];
   Vec3f direction = random.vector(-1, 1);
   if (random.integer(0, 3) == 0) direction[random.integer(0, 2)] = 0;
   if (random.integer(0, 7) == 0) direction = {0, random.integer(0, 1) ? -0.0f : 0.0f, -1};
@@ -165,6 +165,30 @@ TEST(Wide, counting_kernels_answer_alike_and_count_what_they_do) {
     EXPECT_GE(counts.exact_tests, hits) << "the closest hit is always decided exactly";
     EXPECT_LE(counts.exact_tests, counts.triangles);
     EXPECT_LE(counts.triangles, counts.blocks * static_cast<uint64_t>(accel.wide->width));
+  });
+}
+
+TEST(Wide, rays_from_far_away_need_hardly_more_exact_tests_than_those_from_near) {
+  const auto mesh = std::make_shared<const Mesh>(rough_ball(60, 0.1f, 2));
+  Progress progress;
+  const StopFlag stop;
+  const BvhTree tree = builders().front().build(primitive_boxes(*mesh), {}, progress);
+  for_each_instruction_set([&](const std::string& name) {
+    const Accel accel = make_accel(mesh, tree, *find_layout("wide"), progress);
+    const auto exact_tests_from = [&](float distance) {
+      RandomSource random(4);
+      VisitCounts counts;
+      for (int i = 0; i < 2000; ++i) {
+        const Vec3f origin = distance * glm::normalize(random.vector(-1, 1));
+        const Ray ray{.origin = origin, .direction = 0.5f * random.vector(-1, 1) - origin};
+        Hit hit;
+        EXPECT_TRUE(closest_hit_wide(*accel.wide, ray, stop, hit, counts));
+      }
+      return static_cast<double>(counts.exact_tests);
+    };
+    const double near = exact_tests_from(3);
+    EXPECT_LT(exact_tests_from(1e4f), 1.2 * near) << name;
+    EXPECT_LT(exact_tests_from(5e5f), 1.2 * near) << name;
   });
 }
 

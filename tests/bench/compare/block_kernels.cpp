@@ -46,18 +46,30 @@ struct ArrivingRay {
   const Ray* ray;
   RayConstants constants;
   float entry;  // into the leaf's box
-  float t_far;
+  float t_far;  // of the constants
+  // What tests that know no moved origins take.
+  RayConstants unmoved;
+  float unmoved_t_far;
   bool arrives;
 };
 
+RayConstants with_own_origin(const RayConstants& moved, const Ray& ray) {
+  RayConstants c = moved;
+  const float* const origin = &ray.origin.x;
+  for (int i = 0; i < 3; ++i) c.leaf_origin[i] = origin[c.leaf_row[i] / hn::Lanes(Floats())];
+  c.t_min = static_cast<float>(ray.t_min);
+  return c;
+}
+
 ArrivingRay arriving(const KernelBlock& block, const Ray& ray) {
-  ArrivingRay arrival{&ray, {}, 0, round_up(ray.t_max) * (1 + 8 * u), false};
+  ArrivingRay arrival{&ray, {}, 0, 0, {}, round_up(ray.t_max), false};
   if (!prepare(block.tree, ray, arrival.constants)) return arrival;
+  arrival.t_far = stop_at(arrival.constants, ray.t_max);
+  arrival.unmoved = with_own_origin(arrival.constants, ray);
   const float* root = block.tree.nodes.row(0);
-  const auto [entry, is_hit] =
-      arrival.constants.is_far_reaching
-          ? hit_slabs<Slabs::exact>(root, arrival.constants, arrival.t_far)
-          : hit_slabs<Slabs::fused>(root, arrival.constants, arrival.t_far);
+  const auto [entry, is_hit] = with_slabs(arrival.constants, [&]<Slabs slabs>() {
+    return hit_slabs<slabs>(root, arrival.constants, arrival.t_far);
+  });
   if (bits_of(is_hit) == 0) return arrival;
   alignas(64) float entries[hn::MaxLanes(Floats())];
   hn::Store(entry, Floats(), entries);
@@ -69,7 +81,7 @@ ArrivingRay arriving(const KernelBlock& block, const Ray& ray) {
 /// Calls test(rows, info, ray, found) for each ray that meets the block's box.
 template <class Test>
 TestRays prepare_block(const KernelBlock& block, std::span<const Ray> rays, const Test& test) {
-  auto arrivals = std::make_shared<std::vector<ArrivingRay> >();
+  auto arrivals = std::make_shared<std::vector<ArrivingRay>>();
   for (const Ray& ray : rays) arrivals->push_back(arriving(block, ray));
   return [&block, arrivals, test](std::span<Found> found) {
     const float* rows = block.tree.blocks.row(0);
@@ -102,11 +114,11 @@ TestRays PrepareMoellerTrumbore(const KernelBlock& block, std::span<const Ray> r
       [](const float* rows, const WideTree::BlockInfo& info, const ArrivingRay& arrival,
          Found& found) {
         const Floats d;
-        keep_hits(
-            meet_moeller_trumbore(d, spread(arrival.ray->origin), spread(arrival.ray->direction),
-                                  corners_of(rows, 0), corners_of(rows, 1), corners_of(rows, 2),
-                                  hn::Set(d, arrival.constants.t_min), hn::Set(d, arrival.t_far)),
-            info, found);
+        keep_hits(meet_moeller_trumbore(
+                      d, spread(arrival.ray->origin), spread(arrival.ray->direction),
+                      corners_of(rows, 0), corners_of(rows, 1), corners_of(rows, 2),
+                      hn::Set(d, arrival.unmoved.t_min), hn::Set(d, arrival.unmoved_t_far)),
+                  info, found);
       });
 }
 
@@ -114,7 +126,8 @@ TestRays PrepareWoop(const KernelBlock& block, std::span<const Ray> rays) {
   return prepare_block(block, rays,
                        [](const float* rows, const WideTree::BlockInfo& info,
                           const ArrivingRay& arrival, Found& found) {
-                         keep_hits(meet_woop(rows, arrival.constants, arrival.t_far), info, found);
+                         keep_hits(meet_woop(rows, arrival.unmoved, arrival.unmoved_t_far), info,
+                                   found);
                        });
 }
 
@@ -123,8 +136,8 @@ TestRays PreparePluecker(const KernelBlock& block, std::span<const Ray> rays) {
       block, rays,
       [](const float* rows, const WideTree::BlockInfo& info, const ArrivingRay& arrival,
          Found& found) {
-        keep_hits(meet_pluecker(rows, *arrival.ray, arrival.constants.t_min, arrival.t_far), info,
-                  found);
+        keep_hits(meet_pluecker(rows, *arrival.ray, arrival.unmoved.t_min, arrival.unmoved_t_far),
+                  info, found);
       });
 }
 
@@ -154,11 +167,9 @@ TestRays PrepareExact(const KernelBlock& block, std::span<const Ray> rays) {
   return prepare_block(block, rays,
                        [](const float* rows, const WideTree::BlockInfo& info,
                           const ArrivingRay& arrival, Found& found) {
-                         if (arrival.constants.is_far_reaching) {
-                           meet_exactly<Slabs::exact>(rows, info, arrival, found);
-                         } else {
-                           meet_exactly<Slabs::fused>(rows, info, arrival, found);
-                         }
+                         with_slabs(arrival.constants, [&]<Slabs slabs>() {
+                           meet_exactly<slabs>(rows, info, arrival, found);
+                         });
                        });
 }
 

@@ -103,7 +103,8 @@ struct MoellerTrumboreLeaf {
     const Floats d;
     const auto met = meet_moeller_trumbore(
         d, spread(ray.origin), spread(ray.direction), corners_of(rows, 0), corners_of(rows, 1),
-        corners_of(rows, 2), hn::Set(d, c.t_min), hn::Set(d, t_far));
+        corners_of(rows, 2), hn::Set(d, static_cast<float>(ray.t_min)),
+        hn::Set(d, t_far + static_cast<float>(c.t_offset)));
     const uint32_t filled = (2u << (info.count - 1)) - 1;
     Found found;
     found.possible = bits_of(met.is_hit) & filled;

@@ -59,10 +59,6 @@ struct Bundle {
   float deviation = 0;  // by which rays may pass beside the point, in each coordinate
 };
 
-HWY_INLINE float largest_component(const Vec3f& v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
 HWY_INLINE void choose_axes(const Vec3f& direction, Bundle& bundle) {
   const Vec3f size(std::abs(direction.x), std::abs(direction.y), std::abs(direction.z));
   const int z = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);

@@ -47,7 +47,8 @@ HWY_INLINE BlockHits hit_triangles(const float* HWY_RESTRICT block, const WideTr
                            : (info.extent + c.slack) * (1 + 64 * u) + 32 * u * path;
   const float distance = path + extent;
   const float spread = 4 * extent;
-  const float vertex_error = 10 * u * distance;
+  constexpr bool is_moved = slabs == Slabs::moved;
+  const float vertex_error = 10 * u * distance + (is_moved ? 2 * c.origin_error : 0);
   const float bound =
       1.0625f * (spread * (2 * vertex_error + 4 * u * spread) + 2 * vertex_error * vertex_error) +
       FLT_MIN;  // products below it round absolutely
@@ -89,7 +90,8 @@ HWY_INLINE BlockHits hit_triangles(const float* HWY_RESTRICT block, const WideTr
       hn::Mul(hn::CopySignToAbs(hn::Set(d, 1.0f), hn::Xor(determinant, hn::Set(d, c.toward))),
               hn::MulAdd(e2, z[2], hn::MulAdd(e1, z[1], hn::Mul(e0, z[0]))));
   const auto error =
-      hn::MulAdd(size, hn::Set(d, 5 * u * distance), hn::Set(d, 6.5f * bound * distance + FLT_MIN));
+      hn::MulAdd(size, hn::Set(d, 5 * u * distance + (is_moved ? c.origin_error : 0)),
+                 hn::Set(d, 6.5f * bound * distance + FLT_MIN));
   const auto least = hn::Sub(numerator, error);
   const auto most = hn::Add(numerator, error);
   const float limit = t_far * c.largest_component;
@@ -103,6 +105,7 @@ HWY_INLINE BlockHits hit_triangles(const float* HWY_RESTRICT block, const WideTr
     if (possible == 0) return {0, 0};
   }
   const auto inside = hn::Or(hn::Gt(low, positive), hn::Lt(high, negative));
+  if constexpr (is_moved) return {possible, 0};  // depths are not known well enough
   const float start = (c.t_min * (1 + 8 * u) + FLT_MIN) * c.largest_component * (1 + 8 * u);
   const auto within = hn::And(
       hn::Gt(least, hn::Mul(hn::Set(d, start), hn::Add(size, hn::Set(d, size_error)))),

@@ -36,8 +36,8 @@ constexpr float greatest_coordinate = 0x1p36f;
 
 /// How the distance of a plane is computed. With one instruction, and an error relative to all
 /// coordinates of the scene; or with two, and an error relative to that distance: for rays in
-/// scenes much larger than their leaves.
-enum class Slabs { fused, exact };
+/// scenes much larger than their leaves. Or with two of a moved origin, whose error is added.
+enum class Slabs { fused, exact, moved };
 
 /// What of a ray the slab tests and the triangle filter need, computed once.
 struct RayConstants {
@@ -56,12 +56,18 @@ struct RayConstants {
   float toward;                      // sign of the largest component
   float largest_component;           // its size
   bool is_far_reaching;              // Slabs::exact pays
-  float slack;  // how far outside its box the padded slabs let a ray pass, at most
-  float t_min;  // rounded down
+  float slack;         // how far outside its box the padded slabs let a ray pass, at most
+  float t_min;         // rounded down, less t_offset
+  float origin_error;  // of each coordinate, where the origin was moved
+  double t_offset;     // distances of the filter are less by this
 };
 
 /// Lanes of the axes x, y, z of the leaf's filter, by the axis of its z.
 alignas(16) constexpr uint32_t leaf_axes[3][4] = {{1, 2, 0, 3}, {2, 0, 1, 3}, {0, 1, 2, 3}};
+
+HWY_INLINE float largest_component(const Vec3f& v) {
+  return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
+}
 
 /// The least float that is not below `value`, which is not negative.
 HWY_INLINE float round_up(double value) {
@@ -70,16 +76,47 @@ HWY_INLINE float round_up(double value) {
   return std::bit_cast<float>(std::bit_cast<uint32_t>(rounded) + is_below);
 }
 
+/// Where to stop in the filter for hits up to `t`: times 1 + 8u, and never before the start.
+HWY_INLINE float stop_at(const RayConstants& c, double t) {
+  return round_up(std::max(t - c.t_offset, 0.0)) * (1 + 8 * u);
+}
+
+/// Rays from far away start for the filter where they come to the scene: its bounds grow with the
+/// distance. Returns the origin there.
+HWY_NOINLINE inline Vec3f move_origin(const WideTree& tree, const Ray& ray, RayConstants& c) {
+  const double size = tree.max_coordinate;
+  const Vec3d origin(ray.origin), direction(ray.direction);
+  const double outside = max_abs(origin);
+  double t = 0;
+  const auto meet_slab = [&](double from, double speed) {
+    if (speed != 0) t = std::max(t, (-std::copysign(size, speed) - from) / speed);
+  };
+  meet_slab(origin.x, direction.x);
+  meet_slab(origin.y, direction.y);
+  meet_slab(origin.z, direction.z);
+  t *= 1 - 0x1p-30;  // so that nothing lies behind, by any rounding
+  const Vec3d moved = origin + t * direction;
+  const double farthest = max_abs(moved);
+  // Not ">": NaN stays. Farther away, doubles round too; and what passes by is not worth it.
+  if (!(outside < 0x1p20 * size && farthest < 4 * size)) return ray.origin;
+  c.t_offset = t * (1 - 0x1p-31);
+  c.origin_error = static_cast<float>(1.01 * (u * farthest + 0x1p-50 * outside)) + FLT_MIN;
+  return Vec3f(moved);
+}
+
 struct SlabsThatPay {
-  Slabs operator()(bool is_far_reaching) const {
-    return is_far_reaching ? Slabs::exact : Slabs::fused;
+  static constexpr bool may_move = true;
+  Slabs operator()(const RayConstants& c) const {
+    if (c.origin_error > 0) return Slabs::moved;
+    return c.is_far_reaching ? Slabs::exact : Slabs::fused;
   }
 };
 
-/// Either are right for any ray.
+/// All are right for any ray.
 template <Slabs slabs>
 struct TheseSlabs {
-  Slabs operator()(bool) const { return slabs; }
+  static constexpr bool may_move = slabs == Slabs::moved;
+  Slabs operator()(const RayConstants&) const { return slabs; }
 };
 
 /// Whether the ray is in the filter's range.
@@ -89,8 +126,15 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& ray, RayConstants& c,
   const auto width = static_cast<uint32_t>(hn::Lanes(Floats()));
   const hn::FixedTag<float, 4> d4;
   const hn::RebindToUnsigned<decltype(d4)> du4;
-  const Vec3f& o = ray.origin;
+  Vec3f o = ray.origin;
   const Vec3f& direction = ray.direction;
+  c.t_offset = 0;
+  c.origin_error = 0;
+  if constexpr (ChooseSlabs::may_move) {
+    if (HWY_UNLIKELY(largest_component(o) > 8 * tree.max_coordinate)) {
+      o = move_origin(tree, ray, c);
+    }
+  }
   // In registers: a load of what was stored in smaller parts would wait for the stores.
   const auto lanes = [&](const Vec3f& v, float unused) {
     return hn::ConcatLowerLower(d4, hn::InterleaveLower(d4, hn::Set(d4, v.z), hn::Set(d4, unused)),
@@ -101,8 +145,7 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& ray, RayConstants& c,
   const auto size = hn::Abs(component);
 
   // Of all coordinates that meet in a slab test.
-  const float reach =
-      std::max(std::max(std::abs(o.x), std::abs(o.y)), std::abs(o.z)) + tree.max_coordinate;
+  const float reach = largest_component(o) + tree.max_coordinate;
   const float size_x = std::abs(direction.x), size_y = std::abs(direction.y);
   const float size_z = std::abs(direction.z), size_xy = std::max(size_x, size_y);
   c.largest_component = std::max(size_xy, size_z);
@@ -122,14 +165,16 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& ray, RayConstants& c,
   c.slack = 32 * u * reach;
   c.is_far_reaching = c.slack > tree.typical_extent * 0x1p-6f;
   const auto wide_pad = hn::Mul(hn::Abs(inverse), hn::Set(d4, 16 * u * reach));
-  if (HWY_LIKELY(choose_slabs(c.is_far_reaching) == Slabs::fused)) {
+  if (HWY_LIKELY(choose_slabs(c) == Slabs::fused)) {
     const auto offset = hn::Neg(hn::Mul(origin, inverse));
     const auto pad = hn::IfThenElse(is_parallel, wide_pad, hn::Mul(wide_pad, hn::Set(d4, 0.5f)));
     hn::Store(hn::Sub(offset, pad), d4, c.near_offset);
     hn::Store(hn::Add(offset, pad), d4, c.far_offset);
   } else {
-    const auto least_pad = hn::Set(d4, FLT_MIN);  // what underflows rounds absolutely
-    if (!has_parallel) c.slack = 0;
+    // What underflows rounds absolutely.
+    const auto least_pad =
+        hn::MulAdd(hn::Abs(inverse), hn::Set(d4, 1.5f * c.origin_error), hn::Set(d4, FLT_MIN));
+    if (!has_parallel && c.origin_error == 0) c.slack = 0;
     hn::Store(origin, d4, c.origin);
     hn::Store(hn::IfThenElse(is_parallel, wide_pad, least_pad), d4, c.pad);
   }
@@ -152,9 +197,22 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& ray, RayConstants& c,
   hn::Store(hn::Mul(leaf_component, hn::Broadcast<2>(leaf_inverse)), d4, c.shear);
   hn::Store(hn::Mul(axes, hn::Set(du4, width)), du4, c.leaf_row);
   c.toward = hn::ExtractLane(hn::CopySign(hn::Set(d4, 1.0f), leaf_component), 2);
-  const auto t_min = static_cast<float>(ray.t_min);
+  const auto t_min = static_cast<float>(ray.t_min - c.t_offset * (1 + 0x1p-30));
   c.t_min = std::max(0.0f, t_min - std::abs(t_min) * 2 * u);
   return true;
+}
+
+/// f<slabs>() with the slabs that pay for the ray.
+template <class F>
+HWY_INLINE auto with_slabs(const RayConstants& c, const F& f) {
+  switch (SlabsThatPay()(c)) {
+    case Slabs::exact:
+      return f.template operator()<Slabs::exact>();
+    case Slabs::moved:
+      return f.template operator()<Slabs::moved>();
+    default:
+      return f.template operator()<Slabs::fused>();
+  }
 }
 
 /// Lane i of the mask as bit i. Loads what was stored, no more, so that the store is forwarded.
@@ -173,7 +231,7 @@ struct SlabHits {
   hn::Mask<Floats> is_hit;
 };
 
-/// t_far: the distance to stop at, times 1 + 8u.
+/// t_far: as stop_at gives it.
 template <Slabs slabs>
 HWY_INLINE SlabHits hit_slabs(const float* HWY_RESTRICT node, const RayConstants& c, float t_far) {
   const Floats d;

@@ -124,7 +124,7 @@ class Stream {
     const Ray& ray = rays_[next_];
     is_open_ = prepare(tree_, ray, slot.constants, TheseSlabs<slabs>());
     if (!is_open_) return;
-    slot.t_far = round_up(ray.t_max) * (1 + 8 * u);
+    slot.t_far = stop_at(slot.constants, ray.t_max);
     slot.entry = slot.constants.t_min;
     slot.current = WideChild::node(0);
     slot.stack_size = 1;
@@ -247,7 +247,7 @@ class Stream {
       if constexpr (query == Query::occluded) return;
     }
     if (!is_closer) return;
-    slot.t_far = std::min(slot.t_far, round_up(slot.best.t) * (1 + 8 * u));
+    slot.t_far = std::min(slot.t_far, stop_at(slot.constants, slot.best.t));
     slot.stack_size = cull(slot, stack);
   }
 
@@ -290,10 +290,9 @@ size_t answer_stream(const WideTree& tree, std::span<const Ray> rays, const Stop
                      const Answer& answer) {
   RayConstants constants;
   if (rays.empty() || !prepare(tree, rays[0], constants)) return 0;
-  if (constants.is_far_reaching) {
-    return Stream<query, Slabs::exact, Leaf>(tree, rays, stop).run(answer);
-  }
-  return Stream<query, Slabs::fused, Leaf>(tree, rays, stop).run(answer);
+  return with_slabs(constants, [&]<Slabs slabs>() {
+    return Stream<query, slabs, Leaf>(tree, rays, stop).run(answer);
+  });
 }
 
 // NOLINTBEGIN(misc-definitions-in-headers): each instruction set has a namespace of its own.

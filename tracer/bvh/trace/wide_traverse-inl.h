@@ -205,7 +205,7 @@ HWY_NOINLINE void traverse(const WideTree& tree, const Ray& ray, const RayConsta
   StackEntry stack[stack_capacity];
   StackEntry* top = stack;
   StackEntry current{WideChild::node(0), std::bit_cast<uint32_t>(constants.t_min)};
-  float t_far = round_up(ray.t_max) * (1 + 8 * u);
+  float t_far = stop_at(constants, ray.t_max);
   for (;;) {
     while (!current.child.is_leaf()) {
       probe.node();
@@ -245,7 +245,7 @@ HWY_NOINLINE void traverse(const WideTree& tree, const Ray& ray, const RayConsta
           }
           if (hit.is_closer_than(best)) {
             best = hit;
-            t_far = std::min(t_far, round_up(hit.t) * (1 + 8 * u));
+            t_far = std::min(t_far, stop_at(constants, hit.t));
           }
         }
         if (info.is_last) break;
@@ -264,11 +264,9 @@ HWY_INLINE bool answer(const WideTree& tree, const Ray& ray, const StopFlag& sto
                        Hit& hit) {
   RayConstants constants;
   if (HWY_UNLIKELY(!prepare(tree, ray, constants))) return false;
-  if (HWY_LIKELY(!constants.is_far_reaching)) {
-    traverse<query, Slabs::fused, Leaf>(tree, ray, constants, stop, probe, hit);
-  } else {
-    traverse<query, Slabs::exact, Leaf>(tree, ray, constants, stop, probe, hit);
-  }
+  with_slabs(constants, [&]<Slabs slabs>() {
+    traverse<query, slabs, Leaf>(tree, ray, constants, stop, probe, hit);
+  });
   return true;
 }
 
