@@ -270,47 +270,56 @@ class BundleTraversal {
   StackEntry stack_[stack_capacity];
 };
 
-/// Where memory is waited for, a step of each bundle in turn, so that one waits while others work.
-template <Query query>
+/// `together` bundles take a step in turn, so that one waits for memory while others work. With
+/// one, each takes over the memory of that before it, which is in a cache.
+template <Query query, size_t together>
 BundleVerdicts answer_bundles(const WideTree& tree, std::span<const Ray> rays, size_t leaves_a_ray,
                               const StopFlag& stop,
                               std::span<typename BundleTraversal<query>::Answer> answers) {
   using State = typename BundleTraversal<query>::State;
-  BundleTraversal<query> bundles[bundles_under_way];
+  BundleTraversal<query> bundles[together];
   uint32_t under_way = 0;
   BundleVerdicts verdicts;
-  const auto run = [&](int i) {
-    const State state = bundles[i].step(stop);
+  const auto step = [&](size_t i) {
+    BundleTraversal<query>& bundle = bundles[i % together];
+    const State state = bundle.step(stop);
     if (state == State::under_way) return true;
-    if (state == State::answered) bundles[i].finish();
+    if (state == State::answered) bundle.finish();
     (state == State::answered ? verdicts.answered : verdicts.given_up) |= 1u << i;
     return false;
   };
-  for (size_t first = 0; first < rays.size(); first += bundle_size) {
+  for (size_t i = 0; i * bundle_size < rays.size(); ++i) {
+    const size_t first = i * bundle_size;
     const size_t count = std::min(bundle_size, rays.size() - first);
-    const auto i = static_cast<int>(first / bundle_size);
-    if (!bundles[i].start(tree, rays.subspan(first, count), leaves_a_ray,
-                          answers.subspan(first, count))) {
-      continue;
-    }
-    if (tree.is_larger_than_cache) {
-      under_way |= 1u << i;
-    } else {
-      while (run(i)) {
+    const bool is_bundle = bundles[i % together].start(tree, rays.subspan(first, count),
+                                                       leaves_a_ray, answers.subspan(first, count));
+    if (!is_bundle) continue;
+    if constexpr (together == 1) {
+      while (step(i)) {
       }
+    } else {
+      under_way |= 1u << i;
     }
   }
   while (under_way != 0) {
     for (uint32_t bits = under_way; bits != 0; bits &= bits - 1) {
-      const int i = std::countr_zero(bits);
-      if (run(i)) {
-        bundles[i].fetch();
+      const auto i = static_cast<size_t>(std::countr_zero(bits));
+      if (step(i)) {
+        bundles[i % together].fetch();
       } else {
         under_way &= ~(1u << i);
       }
     }
   }
   return verdicts;
+}
+
+template <Query query, class Answer>
+BundleVerdicts answer_bundles(const WideTree& tree, std::span<const Ray> rays, size_t leaves_a_ray,
+                              const StopFlag& stop, std::span<Answer> answers) {
+  return tree.is_larger_than_cache
+             ? answer_bundles<query, bundles_under_way>(tree, rays, leaves_a_ray, stop, answers)
+             : answer_bundles<query, 1>(tree, rays, leaves_a_ray, stop, answers);
 }
 
 // NOLINTBEGIN(misc-definitions-in-headers): each instruction set has a namespace of its own.
