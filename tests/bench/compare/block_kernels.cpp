@@ -81,7 +81,7 @@ ArrivingRay arriving(const KernelBlock& block, const Ray& ray) {
 /// Calls test(rows, info, ray, found) for each ray that meets the block's box.
 template <class Test>
 TestRays prepare_block(const KernelBlock& block, std::span<const Ray> rays, const Test& test) {
-  auto arrivals = std::make_shared<std::vector<ArrivingRay>>();
+  auto arrivals = std::make_shared<std::vector<ArrivingRay> >();
   for (const Ray& ray : rays) arrivals->push_back(arriving(block, ray));
   return [&block, arrivals, test](std::span<Found> found) {
     const float* rows = block.tree.blocks.row(0);
