@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tracer/bvh/trace/accel.h"
 
-#include <bit>
-
 #include <gtest/gtest.h>
 
+#include "tests/support/same_bits.h"
 #include "tests/support/test_meshes.h"
 #include "tracer/bvh/build.h"
 
@@ -59,13 +58,6 @@ std::vector<Answer> answers(const Accel& accel, const std::vector<Ray>& rays) {
   for (const Ray& ray : rays) answers.push_back({caster.closest_hit(ray), caster.occluded(ray)});
   EXPECT_EQ(caster.ray_count(), 2 * rays.size());
   return answers;
-}
-
-bool are_same_bits(const Hit& a, const Hit& b) {
-  const auto same = [](double x, double y) {
-    return std::bit_cast<uint64_t>(x) == std::bit_cast<uint64_t>(y);
-  };
-  return a.primitive == b.primitive && same(a.t, b.t) && same(a.u, b.u) && same(a.v, b.v);
 }
 
 void expect_trees_to_answer_as_brute_force(const Mesh& mesh, const std::vector<Ray>& rays) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/numerics/ways.h"
 
-#include <bit>
 #include <vector>
 
 #include <fmt/format.h>
@@ -49,13 +48,6 @@ World with_tree(const World& world, const BvhTree& tree, const Layout& layout) {
 
 World in_production(const World& world) {
   return with_tree(world, build_tree(builders().front(), *world.scene->mesh), layouts().front());
-}
-
-bool are_same_bits(const Hit& a, const Hit& b) {
-  const auto same = [](double x, double y) {
-    return std::bit_cast<uint64_t>(x) == std::bit_cast<uint64_t>(y);
-  };
-  return a.primitive == b.primitive && same(a.t, b.t) && same(a.u, b.u) && same(a.v, b.v);
 }
 
 std::string literal(const Hit& hit) {

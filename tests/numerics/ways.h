@@ -8,6 +8,7 @@
 
 #include "tests/numerics/stress.h"
 #include "tests/support/instruction_sets.h"
+#include "tests/support/same_bits.h"
 #include "tracer/bvh/build.h"
 #include "tracer/bvh/trace/accel.h"
 #include "tracer/render/world.h"
@@ -32,8 +33,6 @@ void for_each_accel(const std::shared_ptr<const Mesh>& mesh, const BvhTree& tree
 World with_tree(const World& world, const BvhTree& tree, const Layout& layout);
 /// As production has it: the first builder and layout of the tables.
 World in_production(const World& world);
-
-bool are_same_bits(const Hit& a, const Hit& b);
 std::string literal(const Hit& hit);
 
 /// Asks for closest hits and occlusions, one by one and all together, and checks that all have the

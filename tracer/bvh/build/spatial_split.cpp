@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <atomic>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 
 #include "tracer/base/parallel.h"
+#include "tracer/base/scratch_array.h"
 #include "tracer/bvh/build/builders.h"
 #include "tracer/bvh/build/reference_sides.h"
 #include "tracer/bvh/build/small_sweep.h"
@@ -46,11 +46,7 @@ class SpatialSplitBuild {
     const double budget = primitives.slice ? std::max(settings.split_budget, 0.0) : 0;
     const auto count = static_cast<double>(primitives.boxes.size());
     capacity_ = static_cast<uint32_t>(std::min(count * (1 + budget), 0x7fffffffp0));
-    for (auto& buffer : buffers_) {
-      buffer.reset(
-          static_cast<Reference*>(std::malloc(sizeof(Reference) * std::max(capacity_, 1u))));
-      if (!buffer) throw std::bad_alloc();
-    }
+    for (auto& buffer : buffers_) buffer = ScratchArray<Reference>(capacity_);
   }
 
   BvhTree run() {
@@ -74,15 +70,11 @@ class SpatialSplitBuild {
     AxisBins space;
   };
 
-  struct Free {
-    void operator()(Reference* references) const { std::free(references); }
-  };
-
   ReferenceRange all_references() {
     const auto count = static_cast<uint32_t>(primitives_.boxes.size());
     parallel_for_ranges(0, count, 16384, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) {
-        new (&buffers_[0][i]) Reference(primitives_.boxes[i], static_cast<uint32_t>(i));
+        buffers_[0][i] = Reference(primitives_.boxes[i], static_cast<uint32_t>(i));
       }
     });
     ReferenceRange all{0, capacity_, 0, count, {}};
@@ -96,7 +88,7 @@ class SpatialSplitBuild {
   }
 
   std::span<Reference> references(const ReferenceRange& range, int depth) {
-    return {buffers_[depth % 2].get() + range.begin, range.count()};
+    return {buffers_[depth % 2].data() + range.begin, range.count()};
   }
 
   std::unique_ptr<TreePart> subtree(const ReferenceRange& range, int depth) {
@@ -231,7 +223,7 @@ class SpatialSplitBuild {
 
   template <class Route>
   Children distribute(const ReferenceRange& range, int depth, const Route& route) {
-    Reference* const target = buffers_[(depth + 1) % 2].get();
+    Reference* const target = buffers_[(depth + 1) % 2].data();
     const SideWriter written =
         write_sides(references(range, depth),
                     {target + range.region_begin, target + range.region_end}, progress_, route);
@@ -270,7 +262,7 @@ class SpatialSplitBuild {
   uint32_t capacity_;
   double root_area_ = 0;
   std::optional<SmallSweep::Costs> small_costs_;
-  std::array<std::unique_ptr<Reference[], Free>, 2> buffers_;
+  std::array<ScratchArray<Reference>, 2> buffers_;
   std::atomic<uint32_t> placed_{0};
 };
 

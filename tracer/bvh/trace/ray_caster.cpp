@@ -13,10 +13,10 @@ namespace {
 // Fewer rays are done sooner one by one.
 constexpr size_t least_bundle = 8;
 constexpr size_t rays_under_way = bundles_under_way * bundle_size;
-// A bundle that meets more leaves than it has rays is slower than a stream; where streams don't
-// pay, it has time. Measured.
+// A bundle that meets more leaves than that is slower than a stream; where streams don't pay, it
+// has time. Measured.
 constexpr size_t leaves_a_ray_before_stream = 2, leaves_a_ray_before_single = 32;
-// In a row, after which one of 16 bundles is tried.
+// In a row, after which one of 16 groups of bundles is tried.
 constexpr unsigned most_failures = 4;
 
 // Fewer rays are done sooner one by one, and so are those that meet hundreds of nodes and blocks:

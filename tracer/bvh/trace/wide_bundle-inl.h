@@ -241,16 +241,12 @@ class BundleTraversal {
     const size_t width = hn::Lanes(Floats());
     if (ray >= bundle_.ray_count) return;
     const float* v = tree_->blocks.row(0) + block * (WideTree::rows_a_block * width) + lane;
-    const auto vertex = [&](size_t row) {
-      return Vec3f(v[row * width], v[(row + 1) * width], v[(row + 2) * width]);
-    };
-    const auto found = intersect_triangle(rays_[ray], vertex(0), vertex(3), vertex(6));
-    if (!found) return;
+    const Hit hit = hit_exactly(v, width, rays_[ray]);
+    if (!hit.is_hit()) return;
     if constexpr (query == Query::occluded) {
       answers_[ray] = 1;
       bundle_.least[ray] = bundle_.most[ray] = nothing_counts;
     } else {
-      const Hit hit{found->t, found->u, found->v, std::bit_cast<uint32_t>(v[9 * width])};
       if (hit.is_closer_than(answers_[ray])) answers_[ray] = hit;
       const float depth = static_cast<float>(hit.t) * bundle_.speed[ray];
       bundle_.least[ray] = std::min(bundle_.least[ray], depth * (1 - 8 * u) - FLT_MIN);
