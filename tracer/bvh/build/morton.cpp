@@ -43,6 +43,8 @@ class CurveGrid {
 // More are told apart by 10 bits along each axis, fewer by 8, sorted in two passes for three.
 constexpr uint32_t most_on_coarse_grid = 1 << 18;
 
+constexpr uint32_t largest_serial_count = 4096;
+
 class MortonBuild {
  public:
   MortonBuild(const Primitives& primitives, const BuildSettings& settings, Progress& progress)
@@ -121,7 +123,7 @@ class MortonBuild {
   }
 
   void split_all(PrimitiveRange range, int depth, Shape& shape) {
-    if (range.count() <= task_size || is_leaf(range, depth)) {
+    if (range.count() <= largest_serial_count || is_leaf(range, depth)) {
       progress_.throw_if_stopped();
       shape.middles.reserve(likely_node_count(range.count(), leaf_size_) / 2);
       split_serially(range, depth, shape.middles);
