@@ -88,16 +88,17 @@ HWY_INLINE Vectors<Lanes> corners_of(const float* HWY_RESTRICT rows, size_t corn
 
 /// A leaf for the production traversal: a hit is what float arithmetic takes for one, t a float.
 struct MoellerTrumboreLeaf {
+  static constexpr bool is_final = true;
+
   struct Found {
     uint32_t possible;
-    uint32_t certain;
     alignas(64) float determinant[hn::MaxLanes(Floats())];
     alignas(64) float weight1[hn::MaxLanes(Floats())];
     alignas(64) float weight2[hn::MaxLanes(Floats())];
     alignas(64) float numerator[hn::MaxLanes(Floats())];
   };
 
-  template <Verdicts verdicts, Slabs slabs, Flow flow>
+  template <Slabs slabs, Flow flow>
   static HWY_INLINE Found find(const float* HWY_RESTRICT rows, const WideTree::BlockInfo& info,
                                const RayConstants& c, const Ray& ray, float, float t_far) {
     const Floats d;
@@ -108,10 +109,8 @@ struct MoellerTrumboreLeaf {
     const uint32_t filled = (2u << (info.count - 1)) - 1;
     Found found;
     found.possible = bits_of(met.is_hit) & filled;
-    found.certain = verdicts == Verdicts::possible_and_certain ? found.possible : 0;
     if constexpr (flow == Flow::leaves_early) {
-      if (HWY_LIKELY(found.possible == 0) || verdicts == Verdicts::possible_and_certain)
-        return found;
+      if (HWY_LIKELY(found.possible == 0)) return found;
     }
     hn::Store(met.determinant, d, found.determinant);
     hn::Store(met.weight1, d, found.weight1);

@@ -23,21 +23,11 @@ namespace HWY_NAMESPACE {
 /// straight on, so that the processor begins with the next ray's.
 enum class Flow { leaves_early, straight };
 
-/// Of a block's lanes.
-enum class Verdicts { possible, possible_and_certain };
-
-/// Lanes of a block that the ray may hit, and of those the lanes that it certainly hits at a
-/// distance that counts, or none where they are not asked for.
-struct BlockHits {
-  uint32_t possible;
-  uint32_t certain;
-};
-
-/// The sheared edge functions [Woop 2013] of the float-rounded vertices, with `bound` at least
-/// their error.
-template <Verdicts verdicts, Slabs slabs, Flow flow>
-HWY_INLINE BlockHits hit_triangles(const float* HWY_RESTRICT block, const WideTree::BlockInfo& info,
-                                   const RayConstants& c, float entry, float t_far) {
+/// Lanes of a block that the ray may hit: by the sheared edge functions [Woop 2013] of the
+/// float-rounded vertices, with `bound` at least their error.
+template <Slabs slabs, Flow flow>
+HWY_INLINE uint32_t hit_triangles(const float* HWY_RESTRICT block, const WideTree::BlockInfo& info,
+                                  const RayConstants& c, float entry, float t_far) {
   const Floats d;
   const size_t width = hn::Lanes(d);
   // Both hold for every vertex of a leaf whose padded box the ray meets at `entry`. The same in all
@@ -86,7 +76,7 @@ HWY_INLINE BlockHits hit_triangles(const float* HWY_RESTRICT block, const WideTr
   const auto outside = hn::And(hn::Lt(low, negative), hn::Gt(high, bound));
   const uint32_t crossed = ~bits_of(outside) & filled;
   if constexpr (flow == Flow::leaves_early) {
-    if (HWY_LIKELY(crossed == 0)) return {0, 0};
+    if (HWY_LIKELY(crossed == 0)) return 0;
   }
   // What is hit lies at distance T / determinant along the largest component.
   const auto determinant = hn::Add(hn::Add(e0, e1), e2);
@@ -103,18 +93,7 @@ HWY_INLINE BlockHits hit_triangles(const float* HWY_RESTRICT block, const WideTr
   const auto size_error = hn::Mul(hn::Set(d, 3.25f), bound);
   const auto beyond = hn::Or(hn::Gt(least, hn::Mul(hn::Set(d, limit), hn::Add(size, size_error))),
                              hn::Lt(most, hn::Zero(d)));
-  const uint32_t possible = crossed & ~bits_of(beyond);
-  if constexpr (verdicts == Verdicts::possible) return {possible, 0};
-  if constexpr (flow == Flow::leaves_early) {
-    if (possible == 0) return {0, 0};
-  }
-  const auto inside = hn::Or(hn::Gt(low, bound), hn::Lt(high, negative));
-  if constexpr (is_moved) return {possible, 0};  // depths are not known well enough
-  const float start = (c.t_min * (1 + 8 * u) + FLT_MIN) * c.largest_component * (1 + 8 * u);
-  const auto within =
-      hn::And(hn::Gt(least, hn::Mul(hn::Set(d, start), hn::Add(size, size_error))),
-              hn::Lt(most, hn::Mul(hn::Set(d, limit * (1 - 32 * u)), hn::Sub(size, size_error))));
-  return {possible, possible & bits_of(hn::And(inside, within))};
+  return crossed & ~bits_of(beyond);
 }
 
 #endif

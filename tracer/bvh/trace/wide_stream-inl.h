@@ -217,7 +217,7 @@ class Stream {
     for (const uint8_t index : slots) {
       Slot& slot = slots_[index];
       const uint32_t block = slot.current.index();
-      slot.found = Leaf::template find<Verdicts::possible, slabs, Flow::straight>(
+      slot.found = Leaf::template find<slabs, Flow::straight>(
           block_rows(block), tree_.block_infos[block], slot.constants, rays_[slot.ray], slot.entry,
           slot.t_far);
       candidates.add_if(slot.found.possible != 0, index);

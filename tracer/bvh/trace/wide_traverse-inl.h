@@ -180,12 +180,16 @@ HWY_INLINE Hit hit_exactly(const float* HWY_RESTRICT v, size_t width, const Ray&
 
 /// The triangles of a block, decided exactly. Benchmarks traverse with leaves of other kinds.
 struct ExactLeaf {
-  using Found = BlockHits;
+  static constexpr bool is_final = false;  // whether what is possible is a hit
 
-  template <Verdicts verdicts, Slabs slabs, Flow flow>
+  struct Found {
+    uint32_t possible;  // lanes
+  };
+
+  template <Slabs slabs, Flow flow>
   static HWY_INLINE Found find(const float* HWY_RESTRICT rows, const WideTree::BlockInfo& info,
                                const RayConstants& c, const Ray&, float entry, float t_far) {
-    return hit_triangles<verdicts, slabs, flow>(rows, info, c, entry, t_far);
+    return {hit_triangles<slabs, flow>(rows, info, c, entry, t_far)};
   }
   /// Of a lane that is possible.
   static HWY_INLINE Hit hit(const float* HWY_RESTRICT rows, const Found&, int lane,
@@ -225,12 +229,10 @@ HWY_NOINLINE void traverse(const WideTree& tree, const Ray& ray, const RayConsta
         const WideTree::BlockInfo& info = infos[block];
         probe.block(info);
         const float* rows = blocks + block * (WideTree::rows_a_block * width);
-        constexpr Verdicts verdicts =
-            query == Query::occluded ? Verdicts::possible_and_certain : Verdicts::possible;
-        const auto hits = Leaf::template find<verdicts, slabs, Flow::leaves_early>(
-            rows, info, constants, ray, entry, t_far);
-        if constexpr (query == Query::occluded) {
-          if (hits.certain != 0) {
+        const auto hits = Leaf::template find<slabs, Flow::leaves_early>(rows, info, constants, ray,
+                                                                         entry, t_far);
+        if constexpr (query == Query::occluded && Leaf::is_final) {
+          if (hits.possible != 0) {
             best.primitive = 0;
             return;
           }
