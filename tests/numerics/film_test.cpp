@@ -56,16 +56,19 @@ TEST(NumericsFilm, samples_that_are_not_finite_are_counted_as_black_and_spread_t
     const PassStats stats = render_pass(world, path, {}, {0, 1}, film, never);
     RayCaster rays(*world.accel, never);
     uint64_t not_finite = 0;
+    std::optional<SampleId> first_not_finite;
     Tally tally;
     for (int y = 0; y < size_px.y; ++y) {
       for (int x = 0; x < size_px.x; ++x) {
         Trial trial(2, static_cast<uint64_t>(y * size_px.x + x), tally);
         trial.check(film.mean(x, y) == expected.mean(x, y) && film.sample_count(x, y) == 1,
                     [&] { return "pixel " + std::to_string(x) + ", " + std::to_string(y); });
-        not_finite += is_finite(render_sample(world, path, {}, size_px, {x, y}, 0, rays)) ? 0 : 1;
+        if (is_finite(render_sample(world, path, {}, size_px, {x, y}, 0, rays))) continue;
+        if (not_finite++ == 0) first_not_finite = {{x, y}, 0};
       }
     }
     EXPECT_EQ(stats.dropped, not_finite);
+    EXPECT_EQ(stats.first_dropped, first_not_finite);
     EXPECT_GT(stats.dropped, 100u);
     EXPECT_LT(stats.dropped, stats.samples - 100);
     expect_holds("pixels beside samples that are " + std::to_string(bad), tally);

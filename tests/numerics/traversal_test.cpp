@@ -168,7 +168,7 @@ TEST(NumericsTraversal, no_ray_leaks_through_a_closed_surface_by_any_kernel) {
       const bool is_reference = accel.tree != nullptr;
       const std::string property = std::string("leaks of rays ") + kind.name + ", " + way;
       const uint64_t trials_a_control = is_long() && !is_reference ? 64 : 1;
-      const uint64_t count = trials(is_reference ? 200 : 500, is_reference ? 5'000 : 150'000);
+      const uint64_t count = trials(is_reference ? 200 : 500, is_reference ? 5'000 : 300'000);
       const Tally tally = run_trials(property, 31, count, [&](Trial& trial) {
         const std::vector<Ray> rays = rays_at_edges(*ball, kind, trial.random);
         check_all_hit(trial, accel, rays);
