@@ -111,5 +111,24 @@ TEST(NumericsFilm, srgb_codes_of_all_floats_from_0_to_1_are_the_nearest) {
   });
 }
 
+TEST(NumericsFilm, srgb_codes_of_all_other_floats_are_0_or_255) {
+  const std::string property = "sRGB codes of negative floats, floats from 1, infinities and NaN";
+  constexpr uint64_t a_trial = 1u << 16;
+  const uint32_t one = std::bit_cast<uint32_t>(1.0f);
+  const uint64_t others = (uint64_t{1} << 32) - one;
+  const uint64_t all = (others + a_trial - 1) / a_trial;
+  const uint64_t count = trials(all / 16, all);
+  expect_in_all_trials(property, 4, count, [&](Trial& trial) {
+    // In the short form spread evenly.
+    const uint64_t begin = one + trial.index * all / count * a_trial;
+    for (uint64_t i = begin; i < std::min(begin + a_trial, uint64_t{1} << 32); ++i) {
+      const auto value = std::bit_cast<float>(static_cast<uint32_t>(i));
+      const int code = value >= 1 ? 255 : 0;
+      trial.check(encode_srgb(value) == code,
+                  [&] { return "encode_srgb(" + literal(value) + ')'; });
+    }
+  });
+}
+
 }  // namespace
 }  // namespace tracer::stress
