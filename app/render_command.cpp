@@ -18,6 +18,7 @@
 #include "app/render_passes.h"
 #include "app/render_report.h"
 #include "app/render_view.h"
+#include "app/replay.h"
 #include "app/stopwatch.h"
 #include "tracer/base/parallel.h"
 #include "tracer/base/write_file.h"
@@ -150,6 +151,7 @@ class RenderJob {
                 picture_metadata(options_, report_));
     report_.seconds.write = start.seconds();
     bar_.reset();
+    print_dropped_samples();
     if (interrupt_.was_interrupted()) {
       fmt::print(stderr, "interrupted after {} samples a pixel; wrote {}\n",
                  report_.whole_sample_count, options_.output->string());
@@ -157,6 +159,14 @@ class RenderJob {
       fmt::print(stderr, "{}\n", summary(options_, report_));
     }
     return true;
+  }
+
+  void print_dropped_samples() const {
+    const tracer::PassStats& passes = report_.passes;
+    if (!passes.first_dropped) return;
+    fmt::print(stderr, "{}; for the first: {}\n", count_of_dropped(passes.dropped),
+               replay_command(replay_arguments(options_.model, report_.view, *options_.integrator,
+                                               options_.render, *passes.first_dropped)));
   }
 
   RenderOptions options_;

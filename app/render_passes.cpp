@@ -41,12 +41,6 @@ class RenderProgress {
   std::atomic<size_t> finished_tiles_ = 0;
 };
 
-void add(tracer::PassStats& total, const tracer::PassStats& pass) {
-  total.rays += pass.rays;
-  total.samples += pass.samples;
-  total.dropped += pass.dropped;
-}
-
 }  // namespace
 
 RenderedPasses render_passes(const tracer::World& world, const RenderOptions& options,
@@ -64,7 +58,7 @@ RenderedPasses render_passes(const tracer::World& world, const RenderOptions& op
     const tracer::PassStats done =
         render_pass(world, *options.integrator, options.render, pass, film, stop,
                     [&](const tracer::Tile&) { shown.finish_tile(); });
-    add(result.passes, done);
+    result.passes.add(done);
     if (!done.is_complete) break;
     if (pass.stride == 1) result.whole_sample_count = pass.sample + 1;
   }

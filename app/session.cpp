@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "app/replay.h"
 #include "app/session_changes.h"
 #include "app/session_state.h"
 
@@ -61,10 +62,12 @@ std::shared_ptr<const tracer::World> Session::State::make_world() const {
       .sky = edits.sky});
 }
 
+const tracer::Integrator& Session::State::integrator() const {
+  return edits.integrator != nullptr ? *edits.integrator : tracer::integrators().front();
+}
+
 void Session::State::restart_picture() {
-  const tracer::Integrator* integrator =
-      edits.integrator != nullptr ? edits.integrator : &tracer::integrators().front();
-  renderer.restart({make_world(), integrator, edits.render, edits.size_px});
+  renderer.restart({make_world(), &integrator(), edits.render, edits.size_px});
 }
 
 Status Session::State::status() {
@@ -103,6 +106,12 @@ Status Session::State::status() {
   status.samples = render.samples;
   status.rays = render.rates.rays();
   status.seconds = render.rates.seconds();
+  status.dropped_samples = render.passes.dropped;
+  if (render.passes.first_dropped) {
+    status.replay =
+        replay_command(replay_arguments(status.model_path, {edits.camera, edits.size_px, edits.sky},
+                                        integrator(), edits.render, *render.passes.first_dropped));
+  }
   return status;
 }
 

@@ -69,6 +69,8 @@ struct Status {
   uint32_t samples = 0;                     // whole passes in the picture
   uint64_t rays = 0;                        // traced for this picture
   double seconds = 0;                       // spent tracing this picture
+  uint64_t dropped_samples = 0;             // of this picture: not finite, so counted as black
+  std::string replay;                       // the command that shows the first of them
 };
 
 struct Update {

@@ -48,6 +48,7 @@ void SessionRenderer::restart(const PictureRequest& request) {
     // From here on tiles of the old picture are refused, though its pass may still be ending.
     tiles_.start_generation(++generation_, request.size_px);
     rates_ = {};
+    passes_ = {};
     pass_ = tracer::first_pass;
     stop_.request();
   }
@@ -78,7 +79,7 @@ void SessionRenderer::set_sample_limit(int sample_limit) {
 RenderStatus SessionRenderer::status() {
   const std::lock_guard lock(mutex_);
   const bool is_picture_whole = pass_.sample > 0 || pass_.stride < tracer::first_pass.stride;
-  return {is_rendering_, is_picture_whole, pass_.sample, rates_};
+  return {is_rendering_, is_picture_whole, pass_.sample, rates_, passes_};
 }
 
 bool SessionRenderer::has_work() const {
@@ -137,6 +138,7 @@ void SessionRenderer::trace_slice(std::unique_lock<std::mutex>& lock) {
   if (generation != generation_) return;
   const TraceMode mode = mode_of(*picture.world);
   rates_.add(mode, stats.rays, end - start, end);
+  passes_.add(stats);
   if (mode != mode_of(*current_.world)) rates_.forget_recent();
   if (stats.is_complete) pass_ = tracer::next_pass(pass);
   notify_();

@@ -30,6 +30,7 @@ struct RenderStatus {
   bool is_picture_whole = false;  // each block of the coarsest pass is traced
   uint32_t samples = 0;           // whole passes in the picture
   TraceRates rates;
+  tracer::PassStats passes;  // of the picture together
 };
 
 /// Traces on a thread of its own until the sample limit is reached, then sleeps. No call waits for
@@ -71,6 +72,7 @@ class SessionRenderer {
   tracer::Pass pass_ = tracer::first_pass;
   uint64_t generation_ = 0;  // of the film, grows with every clearing
   TraceRates rates_;
+  tracer::PassStats passes_;  // into the film
   bool is_rendering_ = false;
   std::unique_ptr<tracer::Film> film_;  // the render thread's alone, as is the next
   double slice_seconds_ = 0;

@@ -55,6 +55,7 @@ struct Session::State {
   void let_go_of_tree(std::unique_lock<std::mutex>& lock);
   bool is_edited_model() const { return model && edits.model_generation == model->generation; }
   std::shared_ptr<const tracer::World> make_world() const;
+  const tracer::Integrator& integrator() const;
   void restart_picture();
   void post_news();
   Status status();

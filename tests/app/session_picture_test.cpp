@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -41,6 +42,28 @@ TEST_F(SessionTest, shows_a_model_up_to_the_sample_limit) {
   const tracer::Vec3f corner = picture_.pixels.front();
   const tracer::Vec3f center = picture_.pixels[32 * 96 + 48];
   EXPECT_NE(corner, center);
+}
+
+/// Nothing that is a number where the camera ray met nothing.
+void radiance_of_hits_alone(const tracer::World&, tracer::RayCaster&, const tracer::RenderSettings&,
+                            const tracer::SampleBlock& block) {
+  for (size_t i = 0; i < block.size(); ++i) {
+    block.radiance[i] = tracer::Vec3d(block.camera_hits[i].is_hit() ? 1.0 : NAN);
+  }
+}
+
+TEST_F(SessionTest, samples_that_are_not_finite_are_counted_with_a_command_that_replays_the_first) {
+  ASSERT_TRUE(show(ball("ball.obj", 12)));
+  EXPECT_EQ(status_.dropped_samples, 0u);
+  EXPECT_EQ(status_.replay, "");
+  static constexpr tracer::Integrator broken{"broken", "", "", radiance_of_hits_alone, nullptr};
+  edits_.integrator = &broken;
+  session_->set(edits_);
+  ASSERT_TRUE(wait_until([this] { return status_.dropped_samples > 0 && is_done(); }));
+  EXPECT_LT(status_.dropped_samples, 2u * 96 * 64);
+  EXPECT_NE(status_.replay.find("ball.obj --pixel=0,0 --sample=0 --size=96x64"), std::string::npos)
+      << status_.replay;
+  EXPECT_NE(status_.replay.find("--integrator=broken"), std::string::npos);
 }
 
 TEST_F(SessionTest, a_rate_is_known_and_pixels_are_shown_before_a_slow_tile_is_done) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Builders on input that breaks builders: the right answers, bounded depth, and in good time.
+#include <atomic>
 #include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/numerics/rays.h"
+#include "tests/numerics/hard_inputs.h"
 #include "tests/numerics/stress.h"
 #include "tests/numerics/ways.h"
 #include "tests/support/test_meshes.h"
@@ -16,99 +17,6 @@
 
 namespace tracer::stress {
 namespace {
-
-using MakeTriangle = TestTriangle (*)(uint32_t index, uint32_t count, RandomSource& random);
-
-TestTriangle identical(uint32_t, uint32_t, RandomSource&) {
-  return {{0, 0, 0}, {1, 0.1f, 0}, {0, 1, 0.2f}};
-}
-
-TestTriangle concentric(uint32_t index, uint32_t count, RandomSource&) {
-  const float size = static_cast<float>(index + 1) / static_cast<float>(count);
-  return {{-size, -size, 0}, {size, -size, 0}, {0, size, 0}};
-}
-
-// Each holds all before it: the tree that parts one after the other is as deep as there are many.
-TestTriangle chain(uint32_t index, uint32_t count, RandomSource&) {
-  const float size = std::exp2(200 * static_cast<float>(index) / static_cast<float>(count) - 100);
-  return {{0, 0, 0}, {size, 0.5f * size, 0.1f * size}, {0.2f * size, size, size}};
-}
-
-TestTriangle in_a_line(uint32_t index, uint32_t, RandomSource&) {
-  const auto x = static_cast<float>(index);
-  return {{x, 0, 0}, {x + 1, 0, 0}, {x, 0, 1}};
-}
-
-TestTriangle in_a_plane(uint32_t, uint32_t, RandomSource& random) {
-  const Vec3f corner(random.between(-1, 1), 0, random.between(-1, 1));
-  return {corner, corner + Vec3f(0.01f, 0, 0), corner + Vec3f(0, 0, 0.01f)};
-}
-
-TestTriangle a_point(uint32_t, uint32_t, RandomSource&) {
-  return {Vec3f(3, 2, 1), Vec3f(3, 2, 1), Vec3f(3, 2, 1)};
-}
-
-TestTriangle soup_of(float least_exponent, float most_exponent, RandomSource& random) {
-  const auto vertex = [&] {
-    return std::exp2(random.between(least_exponent, most_exponent)) * random.vector(-1, 1);
-  };
-  const Vec3f v0 = vertex();
-  const Vec3f v1 = vertex();
-  return {v0, v1, vertex()};
-}
-
-TestTriangle huge(uint32_t, uint32_t, RandomSource& random) {
-  return soup_of(60, 127.9f, random);  // 1e18 to 3e38
-}
-
-TestTriangle tiny(uint32_t, uint32_t, RandomSource& random) {
-  return soup_of(-149, -110, random);
-}
-
-TestTriangle of_any_bits(uint32_t, uint32_t, RandomSource& random) {
-  const auto vertex = [&] {
-    const float x = random.finite_bits();
-    const float y = random.finite_bits();
-    return Vec3f(x, y, random.finite_bits());
-  };
-  const Vec3f v0 = vertex();
-  const Vec3f v1 = vertex();
-  return {v0, v1, vertex()};
-}
-
-TestTriangle ordinary(uint32_t, uint32_t, RandomSource& random) {
-  const Vec3f center = random.vector(-1, 1);
-  return {center, center + random.vector(-0.01f, 0.01f), center + random.vector(-0.01f, 0.01f)};
-}
-
-struct Input {
-  const char* name;
-  MakeTriangle make;
-};
-constexpr Input inputs[] = {
-    {"identical triangles", identical},
-    {"triangles around one centre", concentric},
-    {"a chain, each around all before", chain},
-    {"triangles in a line", in_a_line},
-    {"triangles in a plane", in_a_plane},
-    {"triangles that are one point", a_point},
-    {"triangles of 1e18 to 3e38", huge},
-    {"triangles of denormals", tiny},
-    {"triangles of any finite bits", of_any_bits},
-    {"an ordinary soup", ordinary},
-};
-
-std::shared_ptr<const Mesh> make_input(const Input& input, uint32_t count) {
-  RandomSource random(1);
-  std::vector<Vec3f> positions;
-  std::vector<Vec3u> triangles;
-  for (uint32_t i = 0; i < count; ++i) {
-    const TestTriangle triangle = input.make(i, count, random);
-    positions.insert(positions.end(), {triangle.v0, triangle.v1, triangle.v2});
-    triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
-  }
-  return std::make_shared<const Mesh>(make_test_mesh(std::move(positions), std::move(triangles)));
-}
 
 /// Finite rays at vertices and insides, from near.
 std::vector<Ray> rays_at(const Mesh& mesh, size_t count) {
@@ -145,7 +53,7 @@ double seconds_to_build(const Builder& builder, const Mesh& mesh, const BuildSet
 constexpr BuildSettings settings_tried[] = {{}, {64, 1}, {7, 4}};
 
 TEST(NumericsBuilders, any_input_gives_a_valid_tree_of_bounded_depth) {
-  for (const Input& input : inputs) {
+  for (const Input& input : inputs()) {
     const auto mesh = make_input(input, static_cast<uint32_t>(trials(20'000, 100'000)));
     const auto boxes = primitive_boxes(*mesh);
     Tally tally;
@@ -162,7 +70,7 @@ TEST(NumericsBuilders, any_input_gives_a_valid_tree_of_bounded_depth) {
 }
 
 TEST(NumericsBuilders, a_round_of_reinsertion_of_any_tree_ends_and_leaves_it_valid) {
-  for (const Input& input : inputs) {
+  for (const Input& input : inputs()) {
     const auto mesh = make_input(input, static_cast<uint32_t>(trials(2'000, 20'000)));
     const auto boxes = primitive_boxes(*mesh);
     Tally tally;
@@ -182,7 +90,7 @@ TEST(NumericsBuilders, a_round_of_reinsertion_of_any_tree_ends_and_leaves_it_val
 }
 
 TEST(NumericsBuilders, any_input_is_answered_as_by_brute_force) {
-  for (const Input& input : inputs) {
+  for (const Input& input : inputs()) {
     const auto mesh = make_input(input, static_cast<uint32_t>(trials(200, 2'000)));
     const std::vector<Ray> rays = rays_at(*mesh, 64);
     const std::vector<Hit> hits = brute_force_hits(mesh, rays);
@@ -204,11 +112,11 @@ TEST(NumericsBuilders, any_input_is_answered_as_by_brute_force) {
 // the long form asserts.
 TEST(NumericsBuilders, no_input_takes_longer_than_2_seconds_or_3_times_an_ordinary_one) {
   const auto count = static_cast<uint32_t>(trials(50'000, 1'000'000));
-  const auto ordinary_mesh = make_input(inputs[std::size(inputs) - 1], count);
+  const auto ordinary_mesh = make_input(inputs().back(), count);
   for (const Builder& builder : builders()) {
     const double to_million = 1e6 / count;
     const double usual = to_million * seconds_to_build(builder, *ordinary_mesh, {});
-    for (const Input& input : inputs) {
+    for (const Input& input : inputs()) {
       const auto mesh = make_input(input, count);
       Tally tally;
       Trial trial(2, 0, tally);
@@ -222,9 +130,53 @@ TEST(NumericsBuilders, no_input_takes_longer_than_2_seconds_or_3_times_an_ordina
   }
 }
 
+/// How many triangles the nodes above leaves hold in all: what a builder has to look at.
+uint64_t work_of(const BvhTree& tree) {
+  std::vector<uint64_t> below(tree.nodes.size());
+  uint64_t work = 0;
+  for (size_t i = tree.nodes.size(); i-- > 0;) {
+    const BvhNode& node = tree.nodes[i];
+    below[i] = node.is_leaf() ? node.count : below[node.first] + below[node.first + 1];
+    if (!node.is_leaf()) work += below[i];
+  }
+  return work;
+}
+
+// What time is made of, counted: levels of the tree, and triangles cut.
+TEST(NumericsBuilders, no_input_makes_more_than_4_times_the_work_of_a_balanced_tree) {
+  const auto count = static_cast<uint32_t>(trials(20'000, 200'000));
+  const double levels = std::log2(count);
+  for (const Input& input : inputs()) {
+    const auto mesh = make_input(input, count);
+    const auto boxes = primitive_boxes(*mesh);
+    std::atomic<uint64_t> slices{0};
+    Primitives primitives = mesh_primitives(*mesh, boxes);
+    primitives.slice = [&slices, slice = primitives.slice](uint32_t primitive, int axis,
+                                                           std::span<const float> planes,
+                                                           std::span<Box4> parts) {
+      ++slices;
+      slice(primitive, axis, planes, parts);
+    };
+    Tally tally;
+    Trial trial(6, 0, tally);
+    for (const Builder& builder : builders()) {
+      Progress progress;
+      slices = 0;
+      const BvhTree tree = builder.build(primitives, {}, progress);
+      const double work = static_cast<double>(work_of(tree) + slices) / count;
+      trial.measure(work / levels);
+      trial.check(work <= 4 * levels, [&] {
+        return fmt::format("{}: {} times the levels of a balanced tree", builder.name,
+                           work / levels);
+      });
+    }
+    expect_holds(fmt::format("work on {} (worst: of a balanced tree's)", input.name), tally);
+  }
+}
+
 TEST(NumericsBuilders, no_one_and_two_triangles_are_enough) {
   for (const uint32_t count : {0u, 1u, 2u, 3u}) {
-    const auto mesh = make_input(inputs[std::size(inputs) - 1], count);
+    const auto mesh = make_input(inputs().back(), count);
     std::vector<Ray> rays{{.origin = {0, 0, 5}, .direction = {0, 0, -1}}};
     if (count > 0) rays = rays_at(*mesh, 64);
     const std::vector<Hit> hits = brute_force_hits(mesh, rays);
@@ -247,7 +199,7 @@ TEST(NumericsBuilders, few_triangles_of_any_bits_give_valid_trees) {
     std::vector<Vec3f> positions;
     std::vector<Vec3u> triangles;
     const auto count = static_cast<uint32_t>(random.integer(1, 70));
-    const Input& input = inputs[random.integer(0, std::size(inputs) - 1)];
+    const Input& input = inputs()[random.integer(0, inputs().size() - 1)];
     for (uint32_t i = 0; i < count; ++i) {
       // Some of another kind, among all that are alike.
       const TestTriangle t =

@@ -56,16 +56,19 @@ TEST(NumericsFilm, samples_that_are_not_finite_are_counted_as_black_and_spread_t
     const PassStats stats = render_pass(world, path, {}, {0, 1}, film, never);
     RayCaster rays(*world.accel, never);
     uint64_t not_finite = 0;
+    std::optional<SampleId> first_not_finite;
     Tally tally;
     for (int y = 0; y < size_px.y; ++y) {
       for (int x = 0; x < size_px.x; ++x) {
         Trial trial(2, static_cast<uint64_t>(y * size_px.x + x), tally);
         trial.check(film.mean(x, y) == expected.mean(x, y) && film.sample_count(x, y) == 1,
                     [&] { return "pixel " + std::to_string(x) + ", " + std::to_string(y); });
-        not_finite += is_finite(render_sample(world, path, {}, size_px, {x, y}, 0, rays)) ? 0 : 1;
+        if (is_finite(render_sample(world, path, {}, size_px, {x, y}, 0, rays))) continue;
+        if (not_finite++ == 0) first_not_finite = {{x, y}, 0};
       }
     }
     EXPECT_EQ(stats.dropped, not_finite);
+    EXPECT_EQ(stats.first_dropped, first_not_finite);
     EXPECT_GT(stats.dropped, 100u);
     EXPECT_LT(stats.dropped, stats.samples - 100);
     expect_holds("pixels beside samples that are " + std::to_string(bad), tally);
@@ -104,6 +107,25 @@ TEST(NumericsFilm, srgb_codes_of_all_floats_from_0_to_1_are_the_nearest) {
     for (uint32_t bits = begin; bits < end; bits += stride) {
       trial.check(encode_srgb(std::bit_cast<float>(bits)) == code,
                   [&] { return "encode_srgb(" + literal(std::bit_cast<float>(bits)) + ')'; });
+    }
+  });
+}
+
+TEST(NumericsFilm, srgb_codes_of_all_other_floats_are_0_or_255) {
+  const std::string property = "sRGB codes of negative floats, floats from 1, infinities and NaN";
+  constexpr uint64_t a_trial = 1u << 16;
+  const uint32_t one = std::bit_cast<uint32_t>(1.0f);
+  const uint64_t others = (uint64_t{1} << 32) - one;
+  const uint64_t all = (others + a_trial - 1) / a_trial;
+  const uint64_t count = trials(all / 16, all);
+  expect_in_all_trials(property, 4, count, [&](Trial& trial) {
+    // In the short form spread evenly.
+    const uint64_t begin = one + trial.index * all / count * a_trial;
+    for (uint64_t i = begin; i < std::min(begin + a_trial, uint64_t{1} << 32); ++i) {
+      const auto value = std::bit_cast<float>(static_cast<uint32_t>(i));
+      const int code = value >= 1 ? 255 : 0;
+      trial.check(encode_srgb(value) == code,
+                  [&] { return "encode_srgb(" + literal(value) + ')'; });
     }
   });
 }

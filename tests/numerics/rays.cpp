@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/numerics/rays.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/numerics/stress.h"
@@ -86,6 +87,23 @@ bool moeller_trumbore(const Ray& ray, const TestTriangle& triangle) {
   const float v = glm::dot(ray.direction, q) / determinant;
   const float t = glm::dot(edge2, q) / determinant;
   return u >= 0 && v >= 0 && u + v <= 1 && t >= 0 && static_cast<double>(t) <= ray.t_max;
+}
+
+std::optional<float> pluecker(const Ray& ray, const TestTriangle& triangle) {
+  const Vec3f v0 = triangle.v0 - ray.origin;
+  const Vec3f v1 = triangle.v1 - ray.origin;
+  const Vec3f v2 = triangle.v2 - ray.origin;
+  const auto side = [&](const Vec3f& from, const Vec3f& to) {
+    return glm::dot(glm::cross(to - from, to + from), ray.direction);
+  };
+  const float u = side(v0, v2);
+  const float v = side(v1, v0);
+  const float w = side(v2, v1);
+  const float tolerance = std::numeric_limits<float>::epsilon() * std::abs(u + v + w);
+  if (std::min({u, v, w}) < -tolerance && std::max({u, v, w}) > tolerance) return {};
+  const Vec3f normal = glm::cross(v2 - v0, v1 - v0);
+  const float t = glm::dot(v0, normal) / glm::dot(normal, ray.direction);
+  return t >= 0 && std::isfinite(t) ? std::optional(t) : std::nullopt;
 }
 
 bool naive_slabs(const Ray& ray, const Box& box) {

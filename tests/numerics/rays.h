@@ -2,6 +2,7 @@
 // What rays are aimed at, and the float formulas that serve as failing controls.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ std::string literal(const TestTriangle& triangle);
 
 /// What many renderers have, in float: leaks at edges and vertices.
 bool moeller_trumbore(const Ray& ray, const TestTriangle& triangle);
+/// Sides of the edges as Pluecker lines, in float, with a tolerance relative to their sum: hits
+/// what lies beside a thin triangle. The distance, where there is one and it is not negative.
+std::optional<float> pluecker(const Ray& ray, const TestTriangle& triangle);
 /// (plane - origin) * (1 / direction), in float and without padding: loses hits.
 bool naive_slabs(const Ray& ray, const Box& box);
 

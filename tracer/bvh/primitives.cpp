@@ -14,6 +14,13 @@ Primitives mesh_primitives(const Mesh& mesh, std::span<const Box> boxes) {
         {mesh.positions[triangle.x], mesh.positions[triangle.y], mesh.positions[triangle.z]}, axis,
         planes, parts);
   };
+  primitives.prefetch = [&mesh](uint32_t primitive) {
+    const Vec3u& triangle = mesh.triangles[primitive];
+    asm volatile("");  // Else GCC drops calls of what does nothing but prefetch.
+    for (int corner = 0; corner < 3; ++corner) {
+      __builtin_prefetch(&mesh.positions[triangle[corner]]);
+    }
+  };
   return primitives;
 }
 

@@ -22,6 +22,8 @@ struct Primitives {
   std::function<void(uint32_t primitive, int axis, std::span<const float> planes,
                      std::span<Box4> parts)>
       slice;
+  /// Hints that slice() will soon be asked about a primitive. There is one where there is a slice.
+  std::function<void(uint32_t primitive)> prefetch;
 
   Primitives() = default;
   Primitives(std::span<const Box> all_boxes) : boxes(all_boxes) {}

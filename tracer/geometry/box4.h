@@ -61,6 +61,11 @@ struct Box4 {
   }
 };
 
+/// Half of a box's centre, so that the difference of any two is finite.
+inline Float4 half_center_of(const Box4& box) {
+  return 0.25f * box.min + 0.25f * box.max;
+}
+
 inline Box4 intersection(const Box4& a, const Box4& b) {
   return {max_of(a.min, b.min), min_of(a.max, b.max)};
 }

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cassert>
+#include <tuple>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -134,9 +135,11 @@ class TileRenderer {
 
   void add_sample(Vec2i pixel, const Vec3d& radiance) {
     const bool is_usable = is_finite(radiance);
-    if (!is_usable) ++stats_.dropped;
-    context_.film.add(pixel.x, pixel.y, is_usable ? radiance : Vec3d(0));
     ++stats_.samples;
+    if (!is_usable) {
+      stats_.add({.dropped = 1, .first_dropped = SampleId{pixel, context_.pass.sample}});
+    }
+    context_.film.add(pixel.x, pixel.y, is_usable ? radiance : Vec3d(0));
   }
 
   const PassContext& context_;
@@ -162,6 +165,19 @@ Vec3d answer_sample(const World& world, const RenderSettings& settings, Vec2i si
 
 }  // namespace
 
+void PassStats::add(const PassStats& other) {
+  rays += other.rays;
+  samples += other.samples;
+  dropped += other.dropped;
+  const auto place = [](const SampleId& id) {
+    return std::tuple(id.sample, id.pixel.y, id.pixel.x);
+  };
+  if (!other.first_dropped) return;
+  if (!first_dropped || place(*other.first_dropped) < place(*first_dropped)) {
+    first_dropped = other.first_dropped;
+  }
+}
+
 Pass next_pass(const Pass& pass) {
   if (pass.stride > 1) return {pass.sample, pass.stride / 2};
   return {pass.sample + 1, 1};
@@ -172,17 +188,15 @@ PassStats render_pass(const World& world, const Integrator& integrator,
                       const StopFlag& stop, const TileCallback& on_tile) {
   const PassContext context{world, integrator, settings, pass, film, stop};
   const std::vector<Tile> tiles = make_tiles(film.size_px());
-  std::atomic<uint64_t> rays{0}, samples{0}, dropped{0};
-  std::atomic<bool> is_complete{true};
+  std::vector<PassStats> parts(tiles.size());
   parallel_in_order(tiles.size(), [&](size_t i) {
-    const PassStats stats = TileRenderer(context, tiles[i]).run();
-    rays += stats.rays;
-    samples += stats.samples;
-    dropped += stats.dropped;
-    if (!stats.is_complete) is_complete = false;
-    if (stats.samples > 0 && on_tile) on_tile(tiles[i]);
+    parts[i] = TileRenderer(context, tiles[i]).run();
+    if (parts[i].samples > 0 && on_tile) on_tile(tiles[i]);
   });
-  return {rays, samples, dropped, is_complete};
+  PassStats all;
+  for (const PassStats& part : parts) all.add(part);
+  all.is_complete = std::ranges::all_of(parts, &PassStats::is_complete);
+  return all;
 }
 
 Vec3d render_sample(const World& world, const Integrator& integrator,

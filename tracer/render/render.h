@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "tracer/base/progress.h"
@@ -22,12 +23,23 @@ struct Pass {
 inline constexpr Pass first_pass{0, 8};
 Pass next_pass(const Pass& pass);
 
+struct SampleId {
+  Vec2i pixel{};
+  uint32_t sample = 0;
+
+  friend bool operator==(const SampleId&, const SampleId&) = default;
+};
+
 struct PassStats {
   uint64_t rays = 0;
-  uint64_t samples = 0;  // of pixels, added to the film
-  uint64_t dropped = 0;  // samples that were not finite, counted as black
+  uint64_t samples = 0;                   // of pixels, added to the film
+  uint64_t dropped = 0;                   // samples that were not finite, counted as black
+  std::optional<SampleId> first_dropped;  // of them all by sample, row and column
   bool is_complete =
       false;  // false when stopped; the film stays valid, and the pass can be resumed
+
+  /// Adds what was counted.
+  void add(const PassStats& other);
 };
 
 /// Called from a worker thread when a tile's part of the pass is done, or as much of it as a stop

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "app/replay.h"
 #include "app/viewer/panels/histogram.h"
 
 namespace app {
@@ -145,6 +146,10 @@ void draw_tracing(const Ui& ui, const Status& status, int sample_limit) {
   number_row(ui, "Samples", {format_count(status.samples), fmt::format("/ {}", limit)});
   ui.layout.note_last_item("samples");
   number_row(ui, "Time", format_seconds(status.seconds));
+  if (status.dropped_samples > 0) {
+    number_row(ui, "Dropped", {format_count(status.dropped_samples), ""},
+               count_of_dropped(status.dropped_samples) + ". For the first: " + status.replay);
+  }
   const float part = static_cast<float>(status.samples) / static_cast<float>(limit);
   ImGui::ProgressBar(part, ImVec2(-FLT_MIN, 3 * ui.scale), "");
 }

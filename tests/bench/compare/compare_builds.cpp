@@ -42,8 +42,9 @@ struct Contestant {
 BuildRun build_ours(const tracer::Builder& builder, const Scene& scene) {
   tracer::Progress progress;
   const app::Stopwatch stopwatch;
+  const auto boxes = primitive_boxes(*scene.mesh);
   const auto tree = std::make_shared<const tracer::BvhTree>(
-      builder.build(primitive_boxes(*scene.mesh), {}, progress));
+      builder.build(mesh_primitives(*scene.mesh, boxes), {}, progress));
   const double tree_ms = 1000 * stopwatch.seconds();
   const tracer::Accel accel = make_accel(scene.mesh, tree, tracer::layouts().front(), progress);
   const double ms = 1000 * stopwatch.seconds();

@@ -36,8 +36,9 @@ Contest make_contest(const Scene& scene, BuilderChoice choice) {
     const bool is_default = contest.accels.empty();
     if (!is_default && choice == BuilderChoice::standard) break;
     tracer::Progress progress;
+    const auto boxes = primitive_boxes(*scene.mesh);
     contest.accels.push_back(std::make_unique<const Accel>(
-        make_accel(scene.mesh, builder.build(primitive_boxes(*scene.mesh), {}, progress),
+        make_accel(scene.mesh, builder.build(mesh_primitives(*scene.mesh, boxes), {}, progress),
                    tracer::layouts().front(), progress)));
     const std::string suffix = is_default ? "" : fmt::format(" {}", builder.name);
     std::ranges::move(boxwood_tracers(*contest.accels.back(), suffix),

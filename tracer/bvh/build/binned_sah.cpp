@@ -14,9 +14,6 @@
 namespace tracer {
 namespace {
 
-// Finer bins are tried as long as they gain; each round costs another look at all.
-constexpr int most_finer_rounds = 3;
-
 // A node before it is split. Its references are in one of two buffers, at positions `range`.
 struct Part {
   PrimitiveRange range;
@@ -138,24 +135,14 @@ class BinnedBuild {
 
   std::array<Part, 2> split(const Part& part, Binning binning, std::span<Chunk> chunks) {
     std::unique_ptr<Bins> sum;
-    const auto gather = [&](const Binning& with) -> const Bins& {
-      return gather_bins(part, with, chunks, sum);
-    };
+    const Bins* bins = nullptr;
     const uint32_t limit = side_limit(part.range.count(), leaf_size_, max_depth_ - part.depth);
-    const Bins* bins = &gather(binning);
-    BinSplit split = bins->best_split(block_count_, scale_, limit);
-    for (int round = 0; round < most_finer_rounds; ++round) {
-      const std::optional<Binning> finer = binning.finer(*bins);
-      if (!finer) break;
-      bins = &gather(*finer);
-      const BinSplit candidate = bins->best_split(block_count_, scale_, limit);
-      if (!(candidate.cost < split.cost)) {
-        bins = &gather(binning);
-        break;
-      }
-      binning = *finer;
-      split = candidate;
-    }
+    const BinSplit split = find_split(
+        binning,
+        [&](const Binning& with) -> const Bins& {
+          return *(bins = &gather_bins(part, with, chunks, sum));
+        },
+        [&](const Bins& of) { return of.best_split(block_count_, scale_, limit); });
     if (!split.exists()) return halve(part);
 
     const uint32_t middle = part.range.begin + bins->left_count(split);

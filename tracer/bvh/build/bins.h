@@ -110,4 +110,28 @@ class Bins {
   std::array<Bin, max_bin_count> bins_;
 };
 
+/// The best plane over `binning`, or over finer ones as long as they gain: gather(binning) returns
+/// a reference to its Bins, and best_split(bins) their BinSplit. `binning` and what was gathered
+/// last become those of the result.
+template <class Gather, class BestSplit>
+BinSplit find_split(Binning& binning, const Gather& gather, const BestSplit& best_split) {
+  // Each round costs another look at all.
+  constexpr int most_finer_rounds = 3;
+  const Bins* bins = &gather(binning);
+  BinSplit split = best_split(*bins);
+  for (int round = 0; round < most_finer_rounds; ++round) {
+    const std::optional<Binning> finer = binning.finer(*bins);
+    if (!finer) break;
+    bins = &gather(*finer);
+    const BinSplit candidate = best_split(*bins);
+    if (!(candidate.cost < split.cost)) {
+      gather(binning);
+      break;
+    }
+    binning = *finer;
+    split = candidate;
+  }
+  return split;
+}
+
 }  // namespace tracer

@@ -31,22 +31,18 @@ struct Reference {
 };
 static_assert(sizeof(Reference) == 32);
 
-inline Float4 center_of(const Box4& box) {
-  return 0.5f * box.min + 0.5f * box.max;
-}
-
-/// Of a set of references: their boxes, and the centres of these.
+/// Of a set of references: their boxes, and half the centres of these.
 struct SetBounds {
   Box4 boxes;
-  Box4 centers;
+  Box4 half_centers;
 
   void extend(const Box4& box) {
     boxes.extend(box);
-    centers.extend(center_of(box));
+    half_centers.extend(half_center_of(box));
   }
   void extend(const SetBounds& other) {
     boxes.extend(other.boxes);
-    centers.extend(other.centers);
+    half_centers.extend(other.half_centers);
   }
 };
 

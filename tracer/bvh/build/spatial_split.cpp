@@ -6,6 +6,7 @@
 
 #include "tracer/base/parallel.h"
 #include "tracer/base/scratch_array.h"
+#include "tracer/bvh/build/bins.h"
 #include "tracer/bvh/build/builders.h"
 #include "tracer/bvh/build/reference_sides.h"
 #include "tracer/bvh/build/small_sweep.h"
@@ -66,8 +67,8 @@ class SpatialSplitBuild {
 
   // A task's own, on the heap as it is large.
   struct Scratch {
-    CenterBins centers;
-    AxisBins space;
+    Bins centers;
+    SpaceBins space;
   };
 
   ReferenceRange all_references() {
@@ -130,10 +131,9 @@ class SpatialSplitBuild {
   // So few become a block or two of triangles, for which a second copy of one costs more than it
   // gains: none is cut.
   void sweep(TreePart& part, size_t node, const ReferenceRange& range, int depth) {
-    const Box4 half_centers(0.5f * range.bounds.centers.min, 0.5f * range.bounds.centers.max);
     const size_t first = part.primitives.size();
     part.primitives.resize(first + range.count());
-    SmallSweep(references(range, depth), half_centers, *small_costs_)
+    SmallSweep(references(range, depth), range.bounds.half_centers, *small_costs_)
         .subdivide(part.nodes, static_cast<uint32_t>(node), max_depth_ - depth,
                    static_cast<uint32_t>(first), part.primitives.data() + first);
   }
@@ -145,21 +145,46 @@ class SpatialSplitBuild {
   Children split(const ReferenceRange& range, int depth, Scratch& scratch) {
     const SplitLimits limits{
         side_limit(range.count(), range.room(), leaf_size_, max_depth_ - depth), range.room()};
-    const CenterGrid centers(range.bounds.centers, bin_count_for(range.count(), settings_));
-    gather(scratch.centers, range, depth, centers.bin_count(),
-           [&](CenterBins& into, std::span<const Reference> part) { into.add(part, centers); });
-    const SplitCandidate object = scratch.centers.best(centers, limits, block_count_);
+    Binning binning(range.bounds.half_centers, bin_count_for(range.count(), settings_));
+    const SplitCandidate object = split_centers(scratch.centers, binning, range, depth, limits);
     if (is_worth_cutting(range, object)) {
       const Children cut = cut_space(scratch.space, range, depth, limits, object);
       if (cut[0].count() > 0 && cut[1].count() > 0) return cut;
     }
-    if (!object.exists()) return halve(range, depth);
+    return object.exists() ? part_centers(binning, object, range, depth) : halve(range, depth);
+  }
+
+  SplitCandidate split_centers(Bins& bins, Binning& binning, const ReferenceRange& range, int depth,
+                               const SplitLimits& limits) {
+    if (!binning.parts_something()) return {};
+    const BinSplit split = find_split(
+        binning,
+        [&](const Binning& with) -> const Bins& {
+          bins.clear(with.bin_count());
+          gather(bins, range, depth,
+                 [&](Bins& into, std::span<const Reference> part) { into.add(part, with); });
+          return bins;
+        },
+        [&](const Bins& of) {
+          return of.best_split(block_count_, small_costs_->scale, limits.a_side);
+        });
+    if (!split.exists()) return {};
+    const auto [left, right] = bins.side_bounds(split);
+    const uint32_t left_count = bins.left_count(split);
+    const uint32_t right_count = range.count() - left_count;
+    const double cost =
+        left.half_area() * block_count_(left_count) + right.half_area() * block_count_(right_count);
+    return {cost, split.axis, split.bin, {left, left_count}, {right, right_count}};
+  }
+
+  Children part_centers(const Binning& binning, const SplitCandidate& split,
+                        const ReferenceRange& range, int depth) {
+    const SideTest goes_right(binning, {.axis = split.axis, .bin = split.bin});
     return distribute(range, depth, [&](const Reference& reference, auto& sink) {
-      const Int4 bin = centers.bins_of(center_of(reference.box()));
-      if (bin[object.axis] < object.bin) {
-        sink.to_left(reference);
-      } else {
+      if (goes_right(reference)[0]) {
         sink.to_right(reference);
+      } else {
+        sink.to_left(reference);
       }
     });
   }
@@ -173,16 +198,15 @@ class SpatialSplitBuild {
   }
 
   // Two empty children where no cut costs less.
-  Children cut_space(AxisBins& bins, const ReferenceRange& range, int depth,
+  Children cut_space(SpaceBins& bins, const ReferenceRange& range, int depth,
                      const SplitLimits& limits, const SplitCandidate& object) {
     const SpaceGrid grid(range.bounds.boxes.box());
     if (grid.planes().empty()) return {};
-    gather(bins, range, depth, SpaceGrid::bin_count,
-           [&](AxisBins& into, std::span<const Reference> part) {
-             grid.add(into, part, primitives_);
-           });
-    SplitCandidate best;
-    bins.improve(best, grid.axis(), SpaceGrid::bin_count, limits, block_count_);
+    bins.clear();
+    gather(bins, range, depth, [&](SpaceBins& into, std::span<const Reference> part) {
+      grid.add(into, part, primitives_);
+    });
+    const SplitCandidate best = bins.best_split(grid.axis(), limits, block_count_);
     const double halving_cost = range.bounds.boxes.half_area() * block_count_(range.count());
     if (!(best.cost < std::min(object.cost, halving_cost))) return {};
     const float plane = grid.planes()[static_cast<size_t>(best.bin) - 1];
@@ -192,12 +216,10 @@ class SpatialSplitBuild {
   // The middle of the order along the longest axis of the centres.
   Children halve(const ReferenceRange& range, int depth) {
     const std::span<Reference> all = references(range, depth);
-    const Box centers = range.bounds.centers.box();
-    const int axis = centers.longest_axis();
+    const int axis = range.bounds.half_centers.box().longest_axis();
     Reference* middle = all.data() + all.size() / 2;
     const auto key = [axis](const Reference& reference) {
-      return std::pair(0.5f * reference.min[axis] + 0.5f * reference.max[axis],
-                       reference.primitive);
+      return std::pair(half_center_of(reference.box())[axis], reference.primitive);
     };
     std::nth_element(all.data(), middle, all.data() + all.size(),
                      [&](const Reference& a, const Reference& b) { return key(a) < key(b); });
@@ -210,15 +232,15 @@ class SpatialSplitBuild {
     });
   }
 
-  template <class Bins, class Add>
-  void gather(Bins& sum, const ReferenceRange& range, int depth, int bin_count, const Add& add) {
+  // Adds what add(bins, references) makes of the range to bins, which are empty.
+  template <class AnyBins, class Add>
+  void gather(AnyBins& bins, const ReferenceRange& range, int depth, const Add& add) {
     const std::span<const Reference> all = references(range, depth);
-    sum.clear(bin_count);
-    if (is_small(all)) return add(sum, all);
-    std::vector<Bins> bins(most_chunks);
+    if (is_small(all)) return add(bins, all);
+    std::vector<AnyBins> parts(most_chunks, bins);
     for_each_chunk(all, progress_,
-                   [&](size_t chunk, std::span<const Reference> part) { add(bins[chunk], part); });
-    for (const Bins& part : bins) sum.merge(part, bin_count);
+                   [&](size_t chunk, std::span<const Reference> part) { add(parts[chunk], part); });
+    for (const AnyBins& part : parts) bins.add(part);
   }
 
   template <class Route>

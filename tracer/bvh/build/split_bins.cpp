@@ -4,8 +4,13 @@
 #include <algorithm>
 
 namespace tracer {
+namespace {
 
-void AxisBins::merge(const AxisBins& other, int bin_count) {
+constexpr int bin_count = SpaceBins::bin_count;
+
+}  // namespace
+
+void SpaceBins::add(const SpaceBins& other) {
   for (int bin = 0; bin < bin_count; ++bin) {
     bins_[bin].bounds.extend(other.bins_[bin].bounds);
     bins_[bin].entries += other.bins_[bin].entries;
@@ -13,10 +18,10 @@ void AxisBins::merge(const AxisBins& other, int bin_count) {
   }
 }
 
-void AxisBins::improve(SplitCandidate& best, int axis, int bin_count, const SplitLimits& limits,
-                       const BlockCount& block_count) const {
-  std::array<double, max_bin_count> right_areas;
-  std::array<uint32_t, max_bin_count> right_counts;
+SplitCandidate SpaceBins::best_split(int axis, const SplitLimits& limits,
+                                     const BlockCount& block_count) const {
+  std::array<double, bin_count> right_areas;
+  std::array<uint32_t, bin_count> right_counts;
   SplitSide right;
   double right_area = 0;
   for (int bin = bin_count - 1; bin > 0; --bin) {
@@ -29,6 +34,7 @@ void AxisBins::improve(SplitCandidate& best, int axis, int bin_count, const Spli
     right_counts[bin] = right.count;
   }
   SplitSide left;
+  SplitCandidate best;
   for (int bin = 1; bin < bin_count; ++bin) {
     // Nothing lies between this plane and the one before.
     if (bins_[bin - 1].is_untouched()) continue;
@@ -46,36 +52,8 @@ void AxisBins::improve(SplitCandidate& best, int axis, int bin_count, const Spli
       best = {cost, axis, bin, left, {{}, right_count}};
     }
   }
-  if (best.axis != axis || !best.exists()) return;
+  if (!best.exists()) return best;
   for (int bin = best.bin; bin < bin_count; ++bin) best.right.bounds.extend(bins_[bin].bounds);
-}
-
-CenterGrid::CenterGrid(const Box4& centers, int bin_count) : bin_count_(bin_count) {
-  const auto count = static_cast<float>(bin_count);
-  base_ = centers.min;
-  last_bin_ = Float4{count - 1, count - 1, count - 1, 0};
-  const Float4 size = centers.max - centers.min;
-  // No reciprocal of 0: an axis without extent has all in bin 0, as has one beyond all floats.
-  scale_ = size > Float4{} ? count / size : Float4{};
-}
-
-void CenterBins::add(std::span<const Reference> references, const CenterGrid& grid) {
-  for (const Reference& reference : references) {
-    const Box4 box = reference.box();
-    const Int4 bins = grid.bins_of(center_of(box));
-    for (int axis = 0; axis < 3; ++axis) axes_[axis].add(bins[axis], box);
-  }
-}
-
-void CenterBins::merge(const CenterBins& other, int bin_count) {
-  for (int axis = 0; axis < 3; ++axis) axes_[axis].merge(other.axes_[axis], bin_count);
-}
-
-SplitCandidate CenterBins::best(const CenterGrid& grid, const SplitLimits& limits,
-                                const BlockCount& block_count) const {
-  SplitCandidate best;
-  for (int axis = 0; axis < 3; ++axis)
-    axes_[axis].improve(best, axis, grid.bin_count(), limits, block_count);
   return best;
 }
 
@@ -111,28 +89,47 @@ int SpaceGrid::bin_up_to(float coordinate) const {
   return bin;
 }
 
-void SpaceGrid::add(AxisBins& bins, std::span<const Reference> references,
+void SpaceGrid::add(SpaceBins& bins, std::span<const Reference> references,
                     const Primitives& primitives) const {
+  // What is cut lies anywhere in memory, so it is asked for a group at a time.
+  constexpr size_t group_size = 16;
+  std::array<BinRange, group_size> ranges;
+  for (size_t begin = 0; begin < references.size(); begin += group_size) {
+    const auto group = references.subspan(begin, std::min(group_size, references.size() - begin));
+    for (size_t i = 0; i < group.size(); ++i) {
+      ranges[i] = bins_of(group[i]);
+      if (ranges[i].first < ranges[i].last) primitives.prefetch(group[i].primitive);
+    }
+    for (size_t i = 0; i < group.size(); ++i) {
+      if (ranges[i].first == ranges[i].last) {
+        bins.add(ranges[i].first, group[i].box());
+      } else {
+        add_parts(bins, group[i], ranges[i], primitives);
+      }
+    }
+  }
+}
+
+SpaceGrid::BinRange SpaceGrid::bins_of(const Reference& reference) const {
+  const int last = bin_up_to(reference.max[axis_]);
+  return {std::min(bin_from(reference.min[axis_]), last), last};
+}
+
+void SpaceGrid::add_parts(SpaceBins& bins, const Reference& reference, BinRange range,
+                          const Primitives& primitives) const {
+  const auto [first, last] = range;
+  // Entries and exits are those of the box: no fewer than a split will make.
+  bins.enter(first);
+  bins.leave(last);
   std::array<Box4, bin_count> parts;
-  for (const Reference& reference : references) {
-    const Box4 box = reference.box();
-    const int last = bin_up_to(reference.max[axis_]);
-    const int first = std::min(bin_from(reference.min[axis_]), last);
-    if (first == last) {
-      bins.add(first, box);
-      continue;
-    }
-    // Entries and exits are those of the box: no fewer than a split will make.
-    bins.enter(first);
-    bins.leave(last);
-    const auto crossed = static_cast<size_t>(last - first);
-    primitives.slice(reference.primitive, axis_,
-                     planes().subspan(static_cast<size_t>(first), crossed),
-                     {parts.data(), crossed + 1});
-    for (int bin = first; bin <= last; ++bin) {
-      const Box4 part = intersection(parts[static_cast<size_t>(bin - first)], box);
-      if (!part.is_empty()) bins.extend(bin, part);
-    }
+  const Box4 box = reference.box();
+  const auto crossed = static_cast<size_t>(last - first);
+  primitives.slice(reference.primitive, axis_,
+                   planes().subspan(static_cast<size_t>(first), crossed),
+                   {parts.data(), crossed + 1});
+  for (int bin = first; bin <= last; ++bin) {
+    const Box4 part = intersection(parts[static_cast<size_t>(bin - first)], box);
+    if (!part.is_empty()) bins.extend(bin, part);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The surface area heuristic over bins: of centres [Wald 2007], and of space [Stich 2009].
+// The surface area heuristic over bins of space. [Stich 2009]
 #pragma once
 
 #include <algorithm>
@@ -34,10 +34,12 @@ struct SplitLimits {
   uint32_t both;
 };
 
-/// Bins of one axis. A reference enters at one and leaves at another, which may be the same.
-class AxisBins {
+/// A reference enters at one bin and leaves at another, which may be the same.
+class SpaceBins {
  public:
-  void clear(int bin_count) { std::fill_n(bins_.begin(), bin_count, Bin{}); }
+  static constexpr int bin_count = 16;
+
+  void clear() { bins_.fill({}); }
   void add(int bin, const Box4& box) {
     bins_[bin].bounds.extend(box);
     ++bins_[bin].entries;
@@ -46,10 +48,10 @@ class AxisBins {
   void extend(int bin, const Box4& box) { bins_[bin].bounds.extend(box); }
   void enter(int bin) { ++bins_[bin].entries; }
   void leave(int bin) { ++bins_[bin].exits; }
-  void merge(const AxisBins& other, int bin_count);
-  /// Where a plane along `axis` is cheaper than `best`, or as cheap and more even, it is the best.
-  void improve(SplitCandidate& best, int axis, int bin_count, const SplitLimits& limits,
-               const BlockCount& block_count) const;
+  void add(const SpaceBins& other);
+  /// The cheapest plane between two bins; the most even of equals.
+  SplitCandidate best_split(int axis, const SplitLimits& limits,
+                            const BlockCount& block_count) const;
 
  private:
   struct Bin {
@@ -61,45 +63,12 @@ class AxisBins {
       return entries == 0 && exits == 0 && !(bounds.min[0] <= bounds.max[0]);
     }
   };
-  std::array<Bin, max_bin_count> bins_;
-};
-
-/// Maps centres to bins.
-class CenterGrid {
- public:
-  CenterGrid(const Box4& centers, int bin_count);
-  int bin_count() const { return bin_count_; }
-  Int4 bins_of(Float4 center) const {
-    const Float4 position = (center - base_) * scale_;
-    // In this order, so that NaN becomes 0.
-    const Float4 clamped = min_of(max_of(position, Float4{}), last_bin_);
-    return __builtin_convertvector(clamped, Int4);
-  }
-
- private:
-  int bin_count_;
-  Float4 base_, scale_, last_bin_;
-};
-
-class CenterBins {
- public:
-  void clear(int bin_count) {
-    for (AxisBins& axis : axes_) axis.clear(bin_count);
-  }
-  void add(std::span<const Reference> references, const CenterGrid& grid);
-  void merge(const CenterBins& other, int bin_count);
-  SplitCandidate best(const CenterGrid& grid, const SplitLimits& limits,
-                      const BlockCount& block_count) const;
-
- private:
-  std::array<AxisBins, 3> axes_;
+  std::array<Bin, bin_count> bins_;
 };
 
 /// Equal slabs of the bounds along their longest side.
 class SpaceGrid {
  public:
-  static constexpr int bin_count = 16;
-
   explicit SpaceGrid(const Box& bounds);
   int axis() const { return axis_; }
   /// Between the bins, ascending. None where the bounds are too thin to be cut.
@@ -107,10 +76,18 @@ class SpaceGrid {
     return {planes_.data(), is_too_thin_ ? 0 : planes_.size()};
   }
   /// Adds the part of each reference in each bin to that bin.
-  void add(AxisBins& bins, std::span<const Reference> references,
+  void add(SpaceBins& bins, std::span<const Reference> references,
            const Primitives& primitives) const;
 
  private:
+  struct BinRange {
+    int first;
+    int last;
+  };
+
+  BinRange bins_of(const Reference& reference) const;
+  void add_parts(SpaceBins& bins, const Reference& reference, BinRange range,
+                 const Primitives& primitives) const;
   int guess_bin(float coordinate) const;
   /// Right of every plane that is not above `coordinate`.
   int bin_from(float coordinate) const;
@@ -119,7 +96,7 @@ class SpaceGrid {
 
   int axis_;
   bool is_too_thin_ = false;
-  std::array<float, bin_count - 1> planes_{};
+  std::array<float, SpaceBins::bin_count - 1> planes_{};
   double base_, scale_;
 };
 

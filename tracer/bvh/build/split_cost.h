@@ -54,11 +54,6 @@ class BlockCount {
   float block_size_;
 };
 
-/// Half of a box's centre, so that the difference of any two is finite.
-inline Float4 half_center_of(const Box4& box) {
-  return 0.25f * box.min + 0.25f * box.max;
-}
-
 /// The power of two that brings all coordinates of a finite box below 1, so that areas and costs
 /// of scaled boxes do not overflow; at most 2^126.
 inline float unit_scale(const Box& box) {

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "tracer/base/scratch_array.h"
 #include "tracer/bvh/build/builders.h"
 #include "tracer/bvh/build/split_cost.h"
 #include "tracer/bvh/build/subdivide.h"
@@ -14,13 +15,15 @@ namespace {
 class SweepSplitter {
  public:
   SweepSplitter(std::span<const Box> boxes, const BuildSettings& settings, const Progress& progress)
-      : boxes_(boxes),
-        leaf_size_(std::max(settings.leaf_size, 1)),
+      : leaf_size_(std::max(settings.leaf_size, 1)),
         block_count_(settings),
         progress_(progress),
+        boxes_(boxes),
+        scaled_boxes_(boxes.size()),
         right_areas_(boxes.size()),
         scratch_(boxes.size()),
         goes_left_(boxes.size()) {
+    scale_boxes();
     parallel_for_each_index(0, 3, [&](size_t axis) { sort_by_center(static_cast<int>(axis)); });
   }
 
@@ -31,18 +34,14 @@ class SweepSplitter {
   }
 
   uint32_t split(PrimitiveRange range, const Box& /*bounds*/, int levels_left) {
-    const uint32_t limit = side_limit(range.count(), leaf_size_, levels_left);
-    Candidate best = best_candidate(range, 0, limit);
-    for (int axis = 1; axis < 3; ++axis) {
-      const Candidate candidate = best_candidate(range, axis, limit);
-      if (candidate.is_better_than(best)) best = candidate;
-    }
-    const uint32_t middle = range.begin + best.left_count;
+    const BestSplits best = best_splits(range, side_limit(range.count(), leaf_size_, levels_left));
+    const int best_axis = best.axis();
+    const uint32_t middle = range.begin + static_cast<uint32_t>(best.place());
     for (uint32_t i = range.begin; i < range.end; ++i) {
-      goes_left_[orders_[best.axis][i]] = i < middle;
+      goes_left_[orders_[best_axis][i]] = i < middle;
     }
     for (int axis = 0; axis < 3; ++axis) {
-      if (axis != best.axis) partition_stably(range, orders_[axis]);
+      if (axis != best_axis) partition_stably(range, orders_[axis]);
     }
     return middle;
   }
@@ -50,16 +49,14 @@ class SweepSplitter {
   std::vector<uint32_t> take_order() { return std::move(orders_[0]); }
 
  private:
-  struct Candidate {
-    double cost = std::numeric_limits<double>::infinity();
-    uint32_t larger_side = 0xffffffffu;
-    int axis = 0;
-    uint32_t left_count = 0;
-
-    bool is_better_than(const Candidate& other) const {
-      return std::tie(cost, larger_side) < std::tie(other.cost, other.larger_side);
-    }
-  };
+  void scale_boxes() {
+    Box all;
+    for (const Box& box : boxes_) all.extend(box);
+    const float scale = unit_scale(all);
+    parallel_for_ranges(0, boxes_.size(), 16384, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) scaled_boxes_[i] = scaled(Box4(boxes_[i]), scale);
+    });
+  }
 
   void sort_by_center(int axis) {
     struct Key {
@@ -77,32 +74,30 @@ class SweepSplitter {
     std::ranges::transform(keys, orders_[axis].begin(), &Key::primitive);
   }
 
-  Candidate best_candidate(PrimitiveRange range, int axis, uint32_t limit) {
-    const std::vector<uint32_t>& order = orders_[axis];
+  // Every plane between two centres, by how many are left of it; an axis a lane.
+  BestSplits best_splits(PrimitiveRange range, uint32_t limit) {
+    Box4 x, y, z;
+    const auto extend = [&](uint32_t i) {
+      x.extend(scaled_boxes_[orders_[0][i]]);
+      y.extend(scaled_boxes_[orders_[1][i]]);
+      z.extend(scaled_boxes_[orders_[2][i]]);
+    };
     const uint32_t count = range.count();
-    Box right;
-    for_each_position(range, progress_, [&](uint32_t i) {
-      const uint32_t mirrored = range.end - 1 - (i - range.begin);
-      right.extend(boxes_[order[mirrored]]);
-      right_areas_[mirrored] = right.half_area();
+    for_each_position({range.begin + 1, range.end}, progress_, [&](uint32_t i) {
+      const uint32_t mirrored = range.end - (i - range.begin);
+      extend(mirrored);
+      right_areas_[mirrored] = half_areas(x, y, z);
     });
-    Box left;
-    Candidate best;
-    for_each_position({range.begin, range.end - 1}, progress_, [&](uint32_t i) {
-      left.extend(boxes_[order[i]]);
-      const uint32_t left_count = i + 1 - range.begin;
+    x = y = z = Box4();
+    BestSplits best;
+    for_each_position({range.begin + 1, range.end}, progress_, [&](uint32_t i) {
+      extend(i - 1);
+      const uint32_t left_count = i - range.begin;
       const uint32_t larger_side = std::max(left_count, count - left_count);
       if (larger_side > limit) return;
-      const double left_area = left.half_area();
-      const double right_area = right_areas_[i + 1];
-      const double left_blocks = block_count_(left_count);
-      const double right_blocks = block_count_(count - left_count);
-      // left_area * left_blocks + right_area * right_blocks, arranged so that boxes that are all
-      // the same cost exactly the same at every plane of as many blocks.
-      const double cost =
-          right_area * (left_blocks + right_blocks) + (left_area - right_area) * left_blocks;
-      const Candidate candidate{cost, larger_side, axis, left_count};
-      if (candidate.is_better_than(best)) best = candidate;
+      best.offer(half_areas(x, y, z), Float4{} + block_count_(left_count), right_areas_[i],
+                 Float4{} + block_count_(count - left_count),
+                 Int4{} + static_cast<int32_t>(larger_side), ~Int4{}, static_cast<int>(left_count));
     });
     return best;
   }
@@ -118,18 +113,18 @@ class SweepSplitter {
         scratch_[right_end++] = primitive;
       }
     });
-    std::copy(scratch_.begin() + range.begin, scratch_.begin() + right_end,
-              order.begin() + left_end);
+    std::copy(scratch_.data() + range.begin, scratch_.data() + right_end, order.begin() + left_end);
   }
 
-  const std::span<const Box> boxes_;
   const int leaf_size_;
   const BlockCount block_count_;
   const Progress& progress_;
+  const std::span<const Box> boxes_;
+  ScratchArray<Box4> scaled_boxes_;              // by unit_scale
   std::array<std::vector<uint32_t>, 3> orders_;  // primitives; each node owns a range of all three
-  std::vector<double> right_areas_;  // by position: of all from there to the range's end
-  std::vector<uint32_t> scratch_;    // by position
-  std::vector<uint8_t> goes_left_;   // by primitive
+  ScratchArray<Float4> right_areas_;  // by position: of all from there to the range's end
+  ScratchArray<uint32_t> scratch_;    // by position
+  ScratchArray<uint8_t> goes_left_;   // by primitive
 };
 
 }  // namespace
