@@ -11,7 +11,7 @@ namespace tracer {
 namespace {
 
 // Text and what it says stay in a core's cache until they are copied.
-constexpr size_t usual_chunk_bytes = size_t{1} << 18;
+constexpr size_t usual_chunk_bytes = size_t{1} << 17;
 
 /// What all threads share: blocks are taken in the file's order, chunks come back in any.
 class ChunkedParser {

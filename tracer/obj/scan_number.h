@@ -109,21 +109,6 @@ inline constexpr double powers_of_ten[largest_exact_power + 1] = {
 inline constexpr uint64_t whole_powers_of_ten[9] = {
     1, 10, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000, 100'000'000};
 
-/// Moves `at` past "e-05" and the like, if it is there, and adds it to `exponent`.
-inline bool scan_exponent(const char*& at, int& exponent) {
-  if ((*at | 0x20) != 'e') return true;
-  const char* digit = at + 1;
-  const bool is_negative = *digit == '-';
-  digit += is_negative || *digit == '+';
-  const uint64_t digits = load_digits(digit);
-  const int count = count_digits(digits);
-  if (count == 0 || count > 4) return false;
-  const auto written = static_cast<int>(digits_value(digits, count));
-  exponent += is_negative ? -written : written;
-  at = digit + count;
-  return true;
-}
-
 }  // namespace scan_detail
 
 /// scan_double for the form that nearly all numbers have, digits on both sides of a point: each
@@ -148,45 +133,14 @@ inline bool scan_plain_double(const char*& at, double& value) {
   return true;
 }
 
+/// scan_double for all other forms that it reads.
+bool scan_rare_double(const char*& at, double& value);
+
 /// Moves `at` past a number of at most 15 digits, and gives the double nearest to it; false where
 /// the number is of another form. Mantissa and power of ten are exact doubles, so that the one
 /// operation between them rounds once [Clinger 1990].
 inline bool scan_double(const char*& at, double& value) {
-  using namespace scan_detail;
-  if (scan_plain_double(at, value)) return true;
-  const bool is_negative = *at == '-';
-  const char* digit = at + is_negative;
-  uint64_t digits = load_digits(digit);
-  const int whole_count = count_digits(digits);
-  if (whole_count == 0 || whole_count == 8) return false;
-  uint64_t mantissa = digits_value(digits, whole_count);
-  digit += whole_count;
-  int exponent = 0;
-  if (*digit == '.') {
-    digits = load_digits(++digit);
-    int count = count_digits(digits);
-    if (count > 0) {
-      mantissa = mantissa * whole_powers_of_ten[count] + digits_value(digits, count);
-      digit += count;
-      exponent = -count;
-    }
-    if (count == 8) {
-      digits = load_digits(digit);
-      count = count_digits(digits);
-      if (whole_count + 8 + count > 15) return false;
-      if (count > 0) mantissa = mantissa * whole_powers_of_ten[count] + digits_value(digits, count);
-      digit += count;
-      exponent -= count;
-    }
-  }
-  if (!scan_exponent(digit, exponent)) return false;
-  if (exponent < -largest_exact_power || exponent > largest_exact_power) return false;
-  const auto exact = static_cast<double>(static_cast<int64_t>(mantissa));
-  const double magnitude =
-      exponent <= 0 ? exact / powers_of_ten[-exponent] : exact * powers_of_ten[exponent];
-  value = is_negative ? -magnitude : magnitude;
-  at = digit;
-  return true;
+  return scan_plain_double(at, value) || scan_rare_double(at, value);
 }
 
 /// The float nearest to a number that the double `nearest` is nearest to; false where the double

@@ -130,6 +130,10 @@ uint32_t scan_corners(const char*& at, LargestIndices& largest, ChunkContent& co
   LargestIndices largest_here = largest;
   for (uint32_t corner_count = 1; corner_count <= max_face_corners; ++corner_count) {
     if (!scan_corner<form>(here, largest_here, to)) return 0;
+    if (here[0] == ' ' && static_cast<unsigned char>(here[1]) > ' ') {
+      ++here;
+      continue;
+    }
     if (is_blank(*here))
       here = skip_blanks(here + 1);
     else if (!is_line_end(*here))
