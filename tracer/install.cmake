@@ -3,7 +3,7 @@ set(boxwood_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/boxwood)
 
 # A downloaded dependency is part of this build alone, so there is nothing that others could link.
 foreach(dependency TBB::tbb hwy::hwy glm::glm fmt::fmt nlohmann_json::nlohmann_json OpenEXR::OpenEXR
-                   PkgConfig::stb)
+                   PkgConfig::stb PkgConfig::zlib PkgConfig::zstd)
   get_target_property(is_of_the_system ${dependency} IMPORTED)
   if(NOT is_of_the_system)
     message(STATUS "The library is not installed: ${dependency} was downloaded")

@@ -21,7 +21,7 @@ inline void require(bool condition, const char* what) {
 }
 
 template <class T>
-void check_indices(const std::vector<Vec3u>& indices, const std::vector<T>& values,
+void check_indices(const LargeVector<Vec3u>& indices, const LargeVector<T>& values,
                    size_t triangle_count) {
   require(indices.empty() || indices.size() == triangle_count, "indices: one a triangle");
   for (const Vec3u& triple : indices) {
@@ -51,9 +51,9 @@ inline void check_mesh(const Mesh& mesh) {
 
 inline void check_obj(std::string_view bytes) {
   Progress progress;
-  const ObjFile file = parse_obj(bytes, "x.obj", progress);
+  ObjFile file = parse_obj(bytes, "x.obj", progress);
   const ObjFile chunked = parse_obj_in_chunks(bytes, "x.obj", 16, progress);
-  require(file.faces.size() == chunked.faces.size(), "chunks change no faces");
+  require(file.face_count == chunked.face_count, "chunks change no faces");
   require(file.warnings.count() == chunked.warnings.count(), "chunks change no warnings");
   for (size_t i = 0; i < file.warnings.messages().size(); ++i) {
     require(file.warnings.messages()[i].text() == chunked.warnings.messages()[i].text(),
@@ -61,7 +61,7 @@ inline void check_obj(std::string_view bytes) {
   }
   require(file.dropped_faces <= file.warnings.count(), "each dropped face has a warning");
   try {
-    const ObjMesh made = make_mesh(file, "x.obj", progress);
+    const ObjMesh made = make_mesh(std::move(file), "x.obj", progress);
     check_mesh(made.mesh);
     for (const uint32_t material : made.mesh.materials) {
       require(material < file.material_names.size(), "material in range");

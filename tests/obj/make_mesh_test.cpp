@@ -31,7 +31,7 @@ TEST(MakeMesh, polygons_become_triangles_about_the_centre) {
   const ObjMesh made = make(square + "f 1 2 3 4\n");
   const Mesh& mesh = made.mesh;
   EXPECT_EQ(mesh.origin, Vec3d(1, 1, 0));
-  EXPECT_EQ(mesh.triangles, (std::vector<Vec3u>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(mesh.triangles, (LargeVector<Vec3u>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(mesh.positions[0], Vec3f(-1, -1, 0));
   EXPECT_EQ(mesh.bounds.min, Vec3f(-1, -1, 0));
   EXPECT_EQ(mesh.bounds.max, Vec3f(1, 1, 0));
@@ -92,7 +92,7 @@ TEST(MakeMesh, normals_are_unit_length_and_those_without_direction_are_none) {
           .mesh;
   EXPECT_EQ(mesh.normals[0], Vec3f(0, 0, 1));
   EXPECT_EQ(mesh.normals[3], Vec3f(1, 0, 0));
-  EXPECT_EQ(mesh.normal_indices, (std::vector<Vec3u>{{0, no_index, no_index}, {3, no_index, 0}}));
+  EXPECT_EQ(mesh.normal_indices, (LargeVector<Vec3u>{{0, no_index, no_index}, {3, no_index, 0}}));
 }
 
 TEST(MakeMesh, texture_coordinates_and_materials_follow_their_triangles) {
@@ -102,14 +102,14 @@ TEST(MakeMesh, texture_coordinates_and_materials_follow_their_triangles) {
   EXPECT_EQ(mesh.texcoord_indices[0], Vec3u(no_index));
   EXPECT_EQ(mesh.texcoord_indices[1], Vec3u(0, 1, 2));
   EXPECT_EQ(mesh.texcoord_indices[2], Vec3u(0, 2, no_index));
-  EXPECT_EQ(mesh.materials, (std::vector<uint32_t>{0, 1, 1}));
+  EXPECT_EQ(mesh.materials, (LargeVector<uint32_t>{0, 1, 1}));
 }
 
 TEST(MakeMesh, colors_run_from_0_to_1_or_from_0_to_255_and_default_to_white) {
   const Mesh unit = make("v 0 0 0 0.5 0 1\nv 1 0 0\nv 0 1 0 nan 0 0\nf 1 2 3\n").mesh;
-  EXPECT_EQ(unit.colors, (std::vector<Vec3f>{{0.5f, 0, 1}, {1, 1, 1}, {1, 1, 1}}));
+  EXPECT_EQ(unit.colors, (LargeVector<Vec3f>{{0.5f, 0, 1}, {1, 1, 1}, {1, 1, 1}}));
   const Mesh bytes = make("v 0 0 0 255 0 51\nv 1 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n").mesh;
-  EXPECT_EQ(bytes.colors, (std::vector<Vec3f>{{1, 0, 0.2f}, {1, 1, 1}, {0, 0, 0}}));
+  EXPECT_EQ(bytes.colors, (LargeVector<Vec3f>{{1, 0, 0.2f}, {1, 1, 1}, {0, 0, 0}}));
 }
 
 TEST(MakeMesh, nothing_to_show_is_an_error_that_says_why) {
@@ -156,9 +156,9 @@ TEST(MakeMesh, a_mesh_does_not_depend_on_the_number_of_threads) {
 
 TEST(MakeMesh, a_stop_ends_it) {
   Progress progress;
-  const ObjFile file = parse_obj(square + "f 1 2 3\n", "x.obj", progress);
+  ObjFile file = parse_obj(square + "f 1 2 3\n", "x.obj", progress);
   progress.request_stop();
-  EXPECT_THROW(make_mesh(file, "x.obj", progress), Cancelled);
+  EXPECT_THROW(make_mesh(std::move(file), "x.obj", progress), Cancelled);
 }
 
 }  // namespace

@@ -17,13 +17,13 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double value_of(std::string_view text) {
-  const ParsedDouble parsed = parse_double(text.data(), text.data() + text.size());
+  const Parsed<double> parsed = parse_real<double>(text.data(), text.data() + text.size());
   EXPECT_EQ(parsed.end, text.data() + text.size()) << text;
   return parsed.value;
 }
 
 bool is_number(std::string_view text) {
-  return parse_double(text.data(), text.data() + text.size()).end != text.data();
+  return parse_real<double>(text.data(), text.data() + text.size()).end != text.data();
 }
 
 int64_t int_of(std::string_view text) {
@@ -96,7 +96,7 @@ TEST(ParseNumber, what_is_no_number_is_not_read) {
 
 TEST(ParseNumber, reading_stops_where_the_number_ends) {
   const std::string_view text = "12.5/7";
-  const ParsedDouble parsed = parse_double(text.data(), text.data() + text.size());
+  const Parsed<double> parsed = parse_real<double>(text.data(), text.data() + text.size());
   EXPECT_EQ(parsed.value, 12.5);
   EXPECT_EQ(parsed.end, text.data() + 4);
 }

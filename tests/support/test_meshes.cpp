@@ -27,10 +27,14 @@ class SharedPositions {
 
 }  // namespace
 
-Mesh make_test_mesh(std::vector<Vec3f> positions, std::vector<Vec3u> triangles) {
+Mesh make_test_mesh(const std::vector<Vec3f>& positions, const std::vector<Vec3u>& triangles) {
+  return make_test_mesh(std::span(positions), std::span(triangles));
+}
+
+Mesh make_test_mesh(std::span<const Vec3f> positions, std::span<const Vec3u> triangles) {
   Mesh mesh;
-  mesh.positions = std::move(positions);
-  mesh.triangles = std::move(triangles);
+  mesh.positions.assign(positions.begin(), positions.end());
+  mesh.triangles.assign(triangles.begin(), triangles.end());
   for (uint32_t i = 0; i < mesh.triangle_count(); ++i) mesh.bounds.extend(mesh.triangle_bounds(i));
   return mesh;
 }
@@ -99,11 +103,11 @@ Mesh lattice_quads(uint32_t quad_count, uint32_t seed) {
 
 Mesh moved(Mesh mesh, const Vec3f& offset) {
   for (Vec3f& position : mesh.positions) position += offset;
-  return make_test_mesh(std::move(mesh.positions), std::move(mesh.triangles));
+  return make_test_mesh(mesh.positions, mesh.triangles);
 }
 
 Mesh repeated(Mesh mesh, int copies) {
-  const std::vector<Vec3u> triangles = mesh.triangles;
+  const LargeVector<Vec3u> triangles = mesh.triangles;
   for (int copy = 1; copy < copies; ++copy) {
     mesh.triangles.insert(mesh.triangles.end(), triangles.begin(), triangles.end());
   }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <string>
+#include <vector>
 
 #include "tests/support/random_source.h"
 #include "tracer/geometry/mesh.h"
@@ -9,7 +11,8 @@
 namespace tracer {
 
 /// Sets the bounds from the triangles.
-Mesh make_test_mesh(std::vector<Vec3f> positions, std::vector<Vec3u> triangles);
+Mesh make_test_mesh(const std::vector<Vec3f>& positions, const std::vector<Vec3u>& triangles);
+Mesh make_test_mesh(std::span<const Vec3f> positions, std::span<const Vec3u> triangles);
 
 /// Triangles of side about `size` anywhere in [-1, 1]^3.
 Mesh random_soup(uint32_t triangle_count, float size, uint32_t seed);

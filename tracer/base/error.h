@@ -46,6 +46,15 @@ class Warnings {
     count_ += other.count_;
   }
 
+  /// Those of a part of a file, of which `lines_before` lines stand before it.
+  void append_moved(const Warnings& part, const std::string& path, int64_t lines_before) {
+    for (const Message& message : part.messages_) {
+      if (messages_.size() >= kept_messages) break;
+      messages_.push_back({path, message.line + lines_before, message.what});
+    }
+    count_ += part.count_;
+  }
+
   /// Both, each in the order of lines, as one list in that order.
   friend Warnings merged_by_line(const Warnings& a, const Warnings& b) {
     Warnings merged;

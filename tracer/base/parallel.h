@@ -75,17 +75,22 @@ void parallel_for_each_index(size_t begin, size_t end, F&& f) {
   oneapi::tbb::parallel_for(begin, end, [&](size_t i) { fork_join.run_task([&] { f(i); }); });
 }
 
+/// Calls f() as often as there are threads: f takes work until there is none, as the first call may
+/// have taken all of it before the last begins.
+template <class F>
+void parallel_workers(F&& f) {
+  const int worker_count = oneapi::tbb::this_task_arena::max_concurrency();
+  parallel_detail::ForkJoin fork_join;
+  oneapi::tbb::parallel_for(0, worker_count, [&](int) { fork_join.run_task([&] { f(); }); });
+}
+
 /// Calls f(i) for each i in [0, count), handed out one by one in that order: the first are begun
 /// first.
 template <class F>
 void parallel_in_order(size_t count, F&& f) {
   std::atomic<size_t> next{0};
-  const int worker_count = oneapi::tbb::this_task_arena::max_concurrency();
-  parallel_detail::ForkJoin fork_join;
-  oneapi::tbb::parallel_for(0, worker_count, [&](int) {
-    fork_join.run_task([&] {
-      for (size_t i = next++; i < count; i = next++) f(i);
-    });
+  parallel_workers([&] {
+    for (size_t i = next++; i < count; i = next++) f(i);
   });
 }
 

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "tracer/base/large_vector.h"
 #include "tracer/base/vectors.h"
@@ -17,14 +16,14 @@ inline constexpr uint32_t no_index = 0xffffffffu;
 /// subtracted in double before the one rounding to float, so a scan in survey coordinates keeps
 /// its detail. Every index is in range and every position that a triangle uses is finite.
 struct Mesh {
-  std::vector<Vec3f> positions;
-  std::vector<Vec3u> triangles;         // indices into positions
-  std::vector<Vec3f> normals;           // unit length; may be empty
-  std::vector<Vec3u> normal_indices;    // empty, or one a triangle; no_index where there is none
-  std::vector<Vec2f> texcoords;         // may be empty
-  std::vector<Vec3u> texcoord_indices;  // empty, or one a triangle; no_index where there is none
-  std::vector<Vec3f> colors;            // empty, or linear RGB, one a position
-  std::vector<uint32_t> materials;      // empty (all 0), or one a triangle: index of its material
+  LargeVector<Vec3f> positions;
+  LargeVector<Vec3u> triangles;         // indices into positions
+  LargeVector<Vec3f> normals;           // unit length; may be empty
+  LargeVector<Vec3u> normal_indices;    // empty, or one a triangle; no_index where there is none
+  LargeVector<Vec2f> texcoords;         // may be empty
+  LargeVector<Vec3u> texcoord_indices;  // empty, or one a triangle; no_index where there is none
+  LargeVector<Vec3f> colors;            // empty, or linear RGB, one a position
+  LargeVector<uint32_t> materials;      // empty (all 0), or one a triangle: index of its material
   Vec3d origin{};
   Box bounds;  // of all triangles, relative to origin
 

@@ -15,8 +15,9 @@ struct ObjMesh {
 };
 
 /// Triangulates (concave polygons by ear clipping in the polygon's own plane), subtracts the
-/// centre of the bounds in double and rounds once to float. Throws LoadError when no triangle is
-/// left, Cancelled when asked to stop.
-ObjMesh make_mesh(const ObjFile& file, const std::string& path, Progress& progress);
+/// centre of the bounds in double and rounds once to float. Lets go of the file's vertices and
+/// faces as it goes, and leaves the rest. Throws LoadError when no triangle is left, Cancelled when
+/// asked to stop.
+ObjMesh make_mesh(ObjFile&& file, const std::string& path, Progress& progress);
 
 }  // namespace tracer

@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
 #include "tracer/geometry/mesh.h"
-#include "tracer/geometry/world_bounds.h"
 #include "tracer/obj/obj_file.h"
 
 namespace tracer {
 
-/// The triangles of a run of faces.
-struct TriangleBlock {
-  std::vector<Vec3u> corners;       // indices into ObjFile::corners
-  std::vector<uint32_t> materials;  // one a triangle
-  WorldBounds bounds;
-  int64_t dropped_faces = 0;
-  Warnings warnings;
-};
+/// Each of these lets go of what it takes from the chunks, piece by piece.
 
-/// Fills the triangles of all blocks, in order, and what the file says of their corners. Arrays
-/// that no triangle uses stay empty; normals without a direction count as none.
-void fill_triangles(const ObjFile& file, const std::vector<TriangleBlock>& blocks, Mesh& mesh);
+/// Relative to `origin`. Positions that no float can hold become 0.
+LargeVector<Vec3f> take_positions(ObjFile& file, const Vec3d& origin);
+/// Unit length, or 0 where one has no direction.
+LargeVector<Vec3f> take_normals(ObjFile& file);
+LargeVector<Vec2f> take_texcoords(ObjFile& file);
+/// From 0 to 1; a vertex without a colour is white. Empty where no vertex has one.
+LargeVector<Vec3f> take_colors(ObjFile& file);
 
 }  // namespace tracer

@@ -108,12 +108,12 @@ class MtlParser {
       return false;
     }
     const std::string_view token = cursor_.peek_token();
-    const std::optional<double> parsed = cursor_.number();
-    if (!parsed || !std::isfinite(static_cast<float>(*parsed))) {
+    const std::optional<float> parsed = cursor_.number<float>();
+    if (!parsed || !std::isfinite(*parsed)) {
       warn(keyword + ": " + quote_text(token) + " is not a finite number");
       return false;
     }
-    number = static_cast<float>(*parsed);
+    number = *parsed;
     return true;
   }
 
@@ -153,7 +153,7 @@ class MtlParser {
     for (int i = 0; i < option->word_count && !cursor_.at_statement_end(); ++i) {
       if (i == 0) {
         cursor_.token();
-      } else if (!cursor_.number()) {
+      } else if (!cursor_.number<float>()) {
         break;
       }
     }

@@ -23,29 +23,34 @@ int64_t decimal_exponent(std::string_view text) {
   return place + std::clamp(written, -huge_exponent, huge_exponent);
 }
 
-/// The limit that a number beyond the range of double tends to.
-double out_of_range_value(std::string_view text) {
+/// The limit that a number beyond the range of T tends to.
+template <class T>
+T out_of_range_value(std::string_view text) {
   const bool is_negative = text.front() == '-';
   const bool is_large = decimal_exponent(text.substr(is_negative ? 1 : 0)) > 0;
-  const double magnitude = is_large ? std::numeric_limits<double>::infinity() : 0.0;
+  const T magnitude = is_large ? std::numeric_limits<T>::infinity() : T(0);
   return is_negative ? -magnitude : magnitude;
 }
 
 }  // namespace
 
-ParsedDouble parse_double(const char* begin, const char* end) {
+template <class T>
+Parsed<T> parse_real(const char* begin, const char* end) {
   const char* first = begin;
   if (first != end && *first == '+') {
     ++first;
     if (first != end && *first == '-') return {0, begin};
   }
-  double value = 0;
+  T value = 0;
   const auto [last, error] = std::from_chars(first, end, value);
   if (error == std::errc::invalid_argument) return {0, begin};
   if (error == std::errc::result_out_of_range) {
-    value = out_of_range_value({first, static_cast<size_t>(last - first)});
+    value = out_of_range_value<T>({first, static_cast<size_t>(last - first)});
   }
   return {value, last};
 }
+
+template Parsed<float> parse_real(const char* begin, const char* end);
+template Parsed<double> parse_real(const char* begin, const char* end);
 
 }  // namespace tracer

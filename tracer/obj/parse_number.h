@@ -8,21 +8,19 @@ namespace tracer {
 
 /// A number read from the front of a text; `end` is where reading stopped, the begin of the text
 /// where there is no number.
-struct ParsedDouble {
-  double value = 0;
-  const char* end = nullptr;
-};
-struct ParsedInt {
-  int64_t value = 0;
+template <class T>
+struct Parsed {
+  T value = 0;
   const char* end = nullptr;
 };
 
-/// The double nearest to the decimal text, in every locale: sign, digits, point, exponent, "inf",
-/// "nan". Beyond the range of double it is infinite or zero.
-ParsedDouble parse_double(const char* begin, const char* end);
+/// The float or double nearest to the decimal text, in every locale: sign, digits, point, exponent,
+/// "inf", "nan". Beyond the type's range it is infinite or zero.
+template <class T>
+Parsed<T> parse_real(const char* begin, const char* end);
 
 /// An optional sign and decimal digits; saturates at the limits of int64_t.
-inline ParsedInt parse_int(const char* begin, const char* end) {
+inline Parsed<int64_t> parse_int(const char* begin, const char* end) {
   constexpr int64_t largest = std::numeric_limits<int64_t>::max();
   const char* at = begin;
   const bool is_negative = at != end && *at == '-';

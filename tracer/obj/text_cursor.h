@@ -24,6 +24,16 @@ class TextCursor {
   explicit TextCursor(std::string_view bytes)
       : at_(bytes.data()), end_(bytes.data() + bytes.size()) {}
 
+  const char* position() const { return at_; }
+  const char* end() const { return end_; }
+  /// Goes on at `at`, the begin of line `line`.
+  void move_to(const char* at, uint32_t line) {
+    at_ = at;
+    line_ = line;
+  }
+  /// The line of the next byte, from 1.
+  uint32_t line() const { return line_; }
+
   /// Moves to the next statement's keyword; false at the end of the text.
   bool next_statement();
   /// Passes what is left of the statement.
@@ -31,8 +41,6 @@ class TextCursor {
 
   /// Where the statement begins, from 1.
   uint32_t statement_line() const { return statement_line_; }
-  /// Lines passed so far.
-  uint32_t lines_passed() const { return line_ - 1; }
 
   /// Whether the statement has no more arguments; passes blanks before the next one.
   bool at_statement_end() {
@@ -47,15 +55,16 @@ class TextCursor {
   /// between blanks begins a comment.
   std::string name();
   /// A number that ends where a token ends; nothing is passed where there is none.
-  std::optional<double> number() {
-    const ParsedDouble parsed = parse_double(at_, end_);
+  template <class T>
+  std::optional<T> number() {
+    const Parsed<T> parsed = parse_real<T>(at_, end_);
     if (parsed.end == at_ || !is_argument_end(parsed.end)) return std::nullopt;
     at_ = parsed.end;
     return parsed.value;
   }
   /// A whole number, which need not end the token.
   std::optional<int64_t> integer() {
-    const ParsedInt parsed = parse_int(at_, end_);
+    const Parsed<int64_t> parsed = parse_int(at_, end_);
     if (parsed.end == at_) return std::nullopt;
     at_ = parsed.end;
     return parsed.value;

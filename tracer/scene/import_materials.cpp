@@ -91,7 +91,7 @@ class MaterialImporter {
     return std::filesystem::is_regular_file(model_folder_ / path, ignored);
   }
 
-  void warn(uint32_t line, const std::string& what) {
+  void warn(int64_t line, const std::string& what) {
     result_.warnings.add({model_path_, line, what});
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tracer/scene/import_obj.h"
 
-#include "tracer/base/file_bytes.h"
+#include "tracer/base/byte_source.h"
 #include "tracer/obj/make_mesh.h"
 #include "tracer/scene/import_materials.h"
 
@@ -10,17 +10,18 @@ namespace {
 
 struct ReadObj {
   ObjFile file;
-  size_t byte_count = 0;
+  uint64_t byte_count = 0;
 };
 
-/// The text is let go before the mesh is made.
-ReadObj read_obj(const std::filesystem::path& path, Progress& progress) {
-  progress.start_stage("loading");
-  const FileBytes text(path, progress);
-  if (text.bytes().empty()) {
-    throw LoadError({path.string(), 0, "no triangles to show: the file is empty"});
+/// The source is closed before the mesh is made.
+ReadObj read_obj(const std::filesystem::path& path, const std::string& name, Progress& progress) {
+  progress.start_stage("reading");
+  const auto source = open_byte_source(path, progress);
+  ObjFile file = parse_obj(*source, name, progress);
+  if (source->bytes_taken() == 0) {
+    throw LoadError({name, 0, "no triangles to show: the file is empty"});
   }
-  return {parse_obj(text.bytes(), path.string(), progress), text.bytes().size()};
+  return {std::move(file), source->bytes_taken()};
 }
 
 /// Textures are of use where there are coordinates to look them up by.
@@ -35,14 +36,14 @@ std::vector<bool> find_textured_materials(const Mesh& mesh, size_t material_coun
 }  // namespace
 
 ImportedScene import_obj(const std::filesystem::path& path, Progress& progress) {
-  const std::string name = path.string();
-  const auto [file, byte_count] = read_obj(path, progress);
-  ObjMesh made = make_mesh(file, name, progress);
+  const std::string name = name_of_input(path);
+  auto [file, byte_count] = read_obj(path, name, progress);
+  ObjMesh made = make_mesh(std::move(file), name, progress);
 
   ImportedScene result;
   result.has_normals = !made.mesh.normals.empty();
   result.face_count =
-      static_cast<uint32_t>(static_cast<int64_t>(file.faces.size()) - made.dropped_faces);
+      static_cast<uint32_t>(static_cast<int64_t>(file.face_count) - made.dropped_faces);
   result.dropped_faces = file.dropped_faces + made.dropped_faces;
   result.object_count = file.object_count;
   result.group_count = file.group_count;

@@ -28,7 +28,7 @@ Vec3d diffuse_color(const Scene& scene, const Material& material, const Hit& hit
 /// The interpolated normal on the side of `geometric_normal`, or that where there is none.
 Vec3d shading_normal(const Scene& scene, const Hit& hit, const Vec3d& geometric_normal) {
   if (scene.shading == Shading::flat) return geometric_normal;
-  const std::vector<Vec3f>& normals = *scene.shading_normals;
+  const LargeVector<Vec3f>& normals = *scene.shading_normals;
   const Vec3u& corner = (*scene.shading_normal_indices)[hit.primitive];
   const Triangle corners{Vec3d(normals[corner.x]), Vec3d(normals[corner.y]),
                          Vec3d(normals[corner.z])};

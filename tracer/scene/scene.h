@@ -49,8 +49,8 @@ struct Scene {
   Shading shading = Shading::flat;
   // Smooth shading only: one unit normal a corner by index, as in Mesh; zero where the triangles
   // around a position cancel out, and the geometric normal stands in.
-  std::shared_ptr<const std::vector<Vec3f>> shading_normals;
-  std::shared_ptr<const std::vector<Vec3u>> shading_normal_indices;
+  std::shared_ptr<const LargeVector<Vec3f>> shading_normals;
+  std::shared_ptr<const LargeVector<Vec3u>> shading_normal_indices;
 };
 
 /// The same scene shaded flat or smooth. Smooth takes the file's normals, and where it has none

@@ -52,9 +52,9 @@ Vec3d weighted_normal(const Mesh& mesh, uint32_t corner) {
 }
 
 /// One normal a position, the angle-weighted mean over its triangles; zero where they cancel out.
-std::vector<Vec3f> vertex_normals(const Mesh& mesh) {
+LargeVector<Vec3f> vertex_normals(const Mesh& mesh) {
   const CornersOfPositions around = corners_of_positions(mesh);
-  std::vector<Vec3f> normals(mesh.positions.size());
+  LargeVector<Vec3f> normals(mesh.positions.size());
   parallel_for_ranges(0, normals.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       Vec3d sum(0);
@@ -71,11 +71,11 @@ std::vector<Vec3f> vertex_normals(const Mesh& mesh) {
 void complete_normals(Scene& scene) {
   const Mesh& mesh = *scene.mesh;
   const auto first_computed = static_cast<uint32_t>(mesh.normals.size());
-  std::vector<Vec3f> normals = mesh.normals;
-  const std::vector<Vec3f> computed = vertex_normals(mesh);
+  LargeVector<Vec3f> normals = mesh.normals;
+  const LargeVector<Vec3f> computed = vertex_normals(mesh);
   normals.insert(normals.end(), computed.begin(), computed.end());
 
-  std::vector<Vec3u> indices = mesh.normal_indices;
+  LargeVector<Vec3u> indices = mesh.normal_indices;
   indices.resize(mesh.triangles.size(), Vec3u(no_index));
   for (size_t i = 0; i < indices.size(); ++i) {
     for (int corner = 0; corner < 3; ++corner) {
@@ -83,8 +83,8 @@ void complete_normals(Scene& scene) {
       if (index == no_index) index = first_computed + mesh.triangles[i][corner];
     }
   }
-  scene.shading_normals = std::make_shared<std::vector<Vec3f>>(std::move(normals));
-  scene.shading_normal_indices = std::make_shared<std::vector<Vec3u>>(std::move(indices));
+  scene.shading_normals = std::make_shared<LargeVector<Vec3f>>(std::move(normals));
+  scene.shading_normal_indices = std::make_shared<LargeVector<Vec3u>>(std::move(indices));
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ class EmbreeScene {
   RTCScene scene() const { return scene_; }
 
  private:
-  std::vector<tracer::Vec3f> positions_;  // one more: Embree reads 16 bytes of each
+  tracer::LargeVector<tracer::Vec3f> positions_;  // one more: Embree reads 16 bytes of each
   std::atomic<int64_t> bytes_{0};
   RTCDevice device_;
   RTCScene scene_;
