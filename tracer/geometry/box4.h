@@ -36,8 +36,12 @@ struct Box4 {
   Box4() = default;
   Box4(Float4 low, Float4 high) : min(low), max(high) {}
   explicit Box4(Float4 point) : min(point), max(point) {}
-  explicit Box4(const Box& box)
-      : min{box.min.x, box.min.y, box.min.z, 0}, max{box.max.x, box.max.y, box.max.z, 0} {}
+  explicit Box4(const Box& box) {
+    static_assert(sizeof(Box) == 6 * sizeof(float));
+    std::memcpy(&min, &box, sizeof min);
+    std::memcpy(&max, reinterpret_cast<const float*>(&box) + 2, sizeof max);
+    max = __builtin_shufflevector(max, max, 1, 2, 3, 0);
+  }
 
   void extend(const Box4& other) {
     min = min_of(min, other.min);

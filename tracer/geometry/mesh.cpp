@@ -16,7 +16,7 @@ Box Mesh::triangle_bounds(uint32_t triangle) const {
 
 LargeVector<Box> primitive_boxes(const Mesh& mesh) {
   LargeVector<Box> boxes(mesh.triangles.size());
-  parallel_for_ranges(0, boxes.size(), 16384, [&](size_t begin, size_t end) {
+  parallel_for_ranges(0, boxes.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) boxes[i] = mesh.triangle_bounds(static_cast<uint32_t>(i));
   });
   return boxes;

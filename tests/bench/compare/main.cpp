@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 
 #include "tests/bench/compare/commands.h"
+#include "tracer/base/freed_memory.h"
 
 int main(int argument_count, char** arguments) {
+  tracer::keep_freed_memory();  // as Boxwood does
   try {
     const auto options = bench::parse_options(argument_count, arguments);
     if (!options) return 0;

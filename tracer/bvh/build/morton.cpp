@@ -11,9 +11,6 @@
 namespace tracer {
 namespace {
 
-// Cells along each axis, over the bounds of half centres.
-constexpr int cells_a_side = 1024;
-
 // Bits 0 to 9 of each lane go to every third.
 Int4 spread(Int4 cells) {
   cells = (cells | cells << 16) & 0x030000ff;
@@ -22,9 +19,11 @@ Int4 spread(Int4 cells) {
   return (cells | cells << 2) & 0x09249249;
 }
 
+/// Cells over the bounds of half centres, 2 ^ `bits` along each axis.
 class CurveGrid {
  public:
-  explicit CurveGrid(const Box4& half_centers) : origin_(half_centers.min) {
+  CurveGrid(const Box4& half_centers, int bits) : origin_(half_centers.min) {
+    const float cells_a_side = static_cast<float>(1 << bits);
     const Float4 scale = cells_a_side * 0.9999f / (half_centers.max - half_centers.min);
     scale_ = scale < Box4::infinity ? scale : Float4{};
   }
@@ -41,6 +40,11 @@ class CurveGrid {
   Float4 scale_;
 };
 
+// More are told apart by 10 bits along each axis, fewer by 8, sorted in two passes for three.
+constexpr uint32_t most_on_coarse_grid = 1 << 18;
+
+constexpr uint32_t largest_serial_count = 4096;
+
 class MortonBuild {
  public:
   MortonBuild(const Primitives& primitives, const BuildSettings& settings, Progress& progress)
@@ -49,19 +53,18 @@ class MortonBuild {
         leaf_size_(std::max(settings.leaf_size, 1)),
         max_depth_(std::min(settings.max_depth, max_tree_depth)),
         progress_(progress),
-        keys_(count_),
-        scratch_(count_) {}
+        codes_(count_ + codes_a_search) {}
 
   BvhTree build() {
     if (count_ == 0) return {};
     const PrimitiveRange all{0, count_};
+    tree_.primitives.resize(count_);
     sort_along_curve(all, [](uint32_t position) { return position; });
     progress_.set_fraction(sorted_fraction);
     Shape shape;
     split_all(all, 0, shape);
     progress_.set_fraction(split_fraction);
     tree_.nodes.resize(shape.node_count);
-    tree_.primitives.resize(count_);
     place(shape, all, 0, {0, 1});
     return std::move(tree_);
   }
@@ -69,6 +72,7 @@ class MortonBuild {
  private:
   static constexpr double sorted_fraction = 0.4;  // of the time
   static constexpr double split_fraction = 0.6;
+  static constexpr uint32_t codes_a_search = 8;  // compared with at once
 
   /// How a range is split, all the way down: known before any box, so that each node is written
   /// once and where it belongs.
@@ -98,21 +102,29 @@ class MortonBuild {
       bounds[chunk] = half_centers;
     });
     for (const Box4& part : bounds) bounds[0].extend(part);
-    const CurveGrid grid(bounds[0]);
+    const int bits = range.count() <= most_on_coarse_grid ? 8 : 10;
+    const CurveGrid grid(bounds[0], bits);
+    ScratchArray<CurveKey> keys(range.count()), scratch(range.count());
     for_each_chunk(range, progress_, [&](uint32_t, PrimitiveRange part) {
       for (uint32_t i = part.begin; i < part.end; ++i) {
         const uint32_t primitive = primitive_of(i);
-        scratch_[i] = {grid.code(Box4(boxes_[primitive])), primitive};
+        keys[i - range.begin] = {grid.code(Box4(boxes_[primitive])), primitive};
       }
     });
-    radix_sort({scratch_.data(), count_}, {keys_.data(), count_}, range, progress_);
+    const std::span<const CurveKey> sorted = radix_sort(
+        {keys.data(), range.count()}, {scratch.data(), range.count()}, 3 * bits, progress_);
+    for_each_chunk(range, progress_, [&](uint32_t, PrimitiveRange part) {
+      for (uint32_t i = part.begin; i < part.end; ++i) {
+        codes_[i] = sorted[i - range.begin].code;
+        tree_.primitives[i] = sorted[i - range.begin].primitive;
+      }
+    });
     return grid.parts_something();
   }
 
   void split_all(PrimitiveRange range, int depth, Shape& shape) {
-    if (range.count() <= task_size || is_leaf(range, depth)) {
+    if (range.count() <= largest_serial_count || is_leaf(range, depth)) {
       progress_.throw_if_stopped();
-      fetch_keys(range);
       shape.middles.reserve(likely_node_count(range.count(), leaf_size_) / 2);
       split_serially(range, depth, shape.middles);
       shape.node_count = 1 + 2 * static_cast<uint32_t>(shape.middles.size());
@@ -183,24 +195,16 @@ class MortonBuild {
     return bounds;
   }
 
-  // Into the cache, in one go: searches would wait for each in turn.
-  void fetch_keys(PrimitiveRange range) const {
-    constexpr uint32_t keys_a_line = 64 / sizeof(CurveKey);
-    for (uint32_t i = range.begin; i < range.end; i += keys_a_line) __builtin_prefetch(&keys_[i]);
-  }
-
-  // And so would leaves.
-  void fetch_boxes(PrimitiveRange range) {
-    for_each_position(range, progress_, [&](uint32_t i) {
-      const uint32_t primitive = tree_.primitives[i] = keys_[i].primitive;
-      __builtin_prefetch(&boxes_[primitive]);
-    });
+  // Into the cache, in one go: leaves would wait for each in turn.
+  void fetch_boxes(PrimitiveRange range) const {
+    for_each_position(range, progress_,
+                      [&](uint32_t i) { __builtin_prefetch(&boxes_[tree_.primitives[i]]); });
   }
 
   // The first position of the right child.
   uint32_t split(PrimitiveRange range, int depth) {
     const uint32_t half = range.begin + range.count() / 2;
-    const auto primitive_of = [this](uint32_t i) { return keys_[i].primitive; };
+    const auto primitive_of = [this](uint32_t i) { return tree_.primitives[i]; };
     if (differing_bits(range) == 0 && !sort_along_curve(range, primitive_of)) return half;
     const uint32_t middle = first_with_highest_differing_bit(range);
     const uint32_t limit = side_limit(range.count(), leaf_size_, max_depth_ - depth);
@@ -208,24 +212,25 @@ class MortonBuild {
   }
 
   uint32_t differing_bits(PrimitiveRange range) const {
-    return keys_[range.begin].code ^ keys_[range.end - 1].code;
+    return codes_[range.begin] ^ codes_[range.end - 1];
   }
 
   uint32_t first_with_highest_differing_bit(PrimitiveRange range) const {
     const uint32_t bit = std::bit_floor(differing_bits(range));
-    const auto is_left = [&](uint32_t i) { return (keys_[i].code & bit) == 0; };
-    const uint32_t last = range.end - 1;
-    uint32_t first = range.begin;
+    const uint32_t first_code = codes_[range.end - 1] & ~(bit - 1);
+    const uint32_t* codes = &codes_[range.begin];
     uint32_t count = range.count();
     // Without a branch: which half it is cannot be predicted.
-    while (count > 8) {
+    while (count > codes_a_search) {
       const uint32_t half = count / 2;
-      first += is_left(first + half - 1) ? half : 0;
+      codes += half & -static_cast<uint32_t>(codes[half - 1] < first_code);
       count -= half;
     }
     uint32_t left_count = 0;
-    for (uint32_t i = 0; i < 8; ++i) left_count += is_left(std::min(first + i, last));
-    return first + left_count;
+    for (uint32_t i = 0; i < codes_a_search; ++i) {
+      left_count += static_cast<uint32_t>(i < count) & static_cast<uint32_t>(codes[i] < first_code);
+    }
+    return static_cast<uint32_t>(codes - codes_.data()) + left_count;
   }
 
   bool is_leaf(PrimitiveRange range, int depth) const {
@@ -243,8 +248,8 @@ class MortonBuild {
   const int leaf_size_;
   const int max_depth_;
   Progress& progress_;
-  ScratchArray<CurveKey> keys_;  // sorted by code within each range that is still to be split
-  ScratchArray<CurveKey> scratch_;
+  // Of tree_.primitives, which are sorted by them within each range that is still to be split.
+  ScratchArray<uint32_t> codes_;
   BvhTree tree_;
   std::atomic<uint32_t> placed_{0};
 };

@@ -1,70 +1,73 @@
 // SPDX-License-Identifier: MIT
 #include "tracer/bvh/build/radix_sort.h"
 
-#include <array>
-#include <numeric>
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "tracer/bvh/build/chunks.h"
 
 namespace tracer {
 namespace {
 
-constexpr int digit_bits = 10;
-constexpr int digit_count = 3;
-constexpr uint32_t bucket_count = 1u << digit_bits;
 // Fewer are sorted by comparing.
 constexpr uint32_t least_count = 2048;
+// A digit's counts stay in the first cache.
+constexpr int most_digit_bits = 12;
 
-using Histogram = std::array<uint32_t, bucket_count>;
+class Digits {
+ public:
+  Digits(int digit_bits, int place) : shift_(place * digit_bits), mask_((1u << digit_bits) - 1) {}
 
-uint32_t digit(CurveKey key, int place) {
-  return key.code >> (place * digit_bits) & (bucket_count - 1);
-}
+  uint32_t count() const { return mask_ + 1; }
+  uint32_t of(CurveKey key) const { return key.code >> shift_ & mask_; }
 
-// From counts to where each chunk's first key of each bucket goes.
-void make_offsets(std::vector<Histogram>& histograms, uint32_t first) {
-  Histogram next{};
-  for (const Histogram& histogram : histograms) {
-    for (uint32_t bucket = 0; bucket < bucket_count; ++bucket) next[bucket] += histogram[bucket];
-  }
-  std::exclusive_scan(next.begin(), next.end(), next.begin(), first);
-  for (Histogram& histogram : histograms) {
-    for (uint32_t bucket = 0; bucket < bucket_count; ++bucket) {
-      next[bucket] += std::exchange(histogram[bucket], next[bucket]);
+ private:
+  int shift_;
+  uint32_t mask_;
+};
+
+// From counts, by chunk and digit, to where each chunk's first key of each digit goes.
+void make_offsets(std::span<uint32_t> counts, uint32_t digit_count) {
+  uint32_t next = 0;
+  for (uint32_t digit = 0; digit < digit_count; ++digit) {
+    for (size_t i = digit; i < counts.size(); i += digit_count) {
+      next += std::exchange(counts[i], next);
     }
   }
 }
 
-void sort_by_digit(std::span<const CurveKey> from, std::span<CurveKey> to, int place,
-                   PrimitiveRange range, const Progress& progress) {
-  std::vector<Histogram> histograms(chunk_count(range));
-  for_each_chunk(range, progress, [&](uint32_t chunk, PrimitiveRange part) {
-    Histogram& histogram = histograms[chunk];
-    for (uint32_t i = part.begin; i < part.end; ++i) ++histogram[digit(from[i], place)];
+void sort_by_digit(std::span<const CurveKey> from, std::span<CurveKey> to, Digits digits,
+                   const Progress& progress) {
+  const PrimitiveRange all{0, static_cast<uint32_t>(from.size())};
+  std::vector<uint32_t> offsets(size_t{chunk_count(all)} * digits.count());
+  const auto of_chunk = [&](uint32_t chunk) { return &offsets[size_t{chunk} * digits.count()]; };
+  for_each_chunk(all, progress, [&](uint32_t chunk, PrimitiveRange part) {
+    uint32_t* const counts = of_chunk(chunk);
+    for (uint32_t i = part.begin; i < part.end; ++i) ++counts[digits.of(from[i])];
   });
-  make_offsets(histograms, range.begin);
-  for_each_chunk(range, progress, [&](uint32_t chunk, PrimitiveRange part) {
-    Histogram& offsets = histograms[chunk];
-    for (uint32_t i = part.begin; i < part.end; ++i) to[offsets[digit(from[i], place)]++] = from[i];
+  make_offsets(offsets, digits.count());
+  for_each_chunk(all, progress, [&](uint32_t chunk, PrimitiveRange part) {
+    uint32_t* const next = of_chunk(chunk);
+    for (uint32_t i = part.begin; i < part.end; ++i) to[next[digits.of(from[i])]++] = from[i];
   });
 }
 
 }  // namespace
 
-void radix_sort(std::span<CurveKey> from, std::span<CurveKey> to, PrimitiveRange range,
-                const Progress& progress) {
-  if (range.count() < least_count) {
-    std::copy(from.begin() + range.begin, from.begin() + range.end, to.begin() + range.begin);
-    std::stable_sort(to.begin() + range.begin, to.begin() + range.end,
-                     [](CurveKey a, CurveKey b) { return a.code < b.code; });
-    return;
+std::span<const CurveKey> radix_sort(std::span<CurveKey> keys, std::span<CurveKey> scratch,
+                                     int code_bits, const Progress& progress) {
+  if (keys.size() < least_count) {
+    std::ranges::stable_sort(keys, {}, &CurveKey::code);
+    return keys;
   }
-  static_assert(digit_count % 2 == 1);  // so that the last pass ends in `to`
+  const int digit_count = (code_bits + most_digit_bits - 1) / most_digit_bits;
+  const int digit_bits = (code_bits + digit_count - 1) / digit_count;
   for (int place = 0; place < digit_count; ++place) {
-    sort_by_digit(from, to, place, range, progress);
-    std::swap(from, to);
+    sort_by_digit(keys, scratch, Digits(digit_bits, place), progress);
+    std::swap(keys, scratch);
   }
+  return keys;
 }
 
 }  // namespace tracer

@@ -14,7 +14,7 @@ constexpr float node_cost = 1.0f;
 constexpr float block_cost = 1.0f;
 
 // Subtrees above this size are planned in parallel.
-constexpr uint32_t largest_serial_count = 16384;
+constexpr uint32_t largest_serial_count = 4096;
 
 double square(double x) {
   return x * x;

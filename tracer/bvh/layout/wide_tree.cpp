@@ -23,7 +23,7 @@ FloatRows::FloatRows(size_t row_count, int width) : row_count_(row_count), width
 namespace {
 
 // Subtrees of more triangles are written in parallel.
-constexpr uint32_t largest_serial_count = 16384;
+constexpr uint32_t largest_serial_count = 4096;
 
 constexpr size_t core_cache_bytes = size_t{1} << 21;
 constexpr size_t shared_cache_bytes = 16 << 20;

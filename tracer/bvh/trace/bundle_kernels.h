@@ -20,9 +20,10 @@ struct BundleVerdicts {
   uint32_t given_up = 0;  // met more leaves than leaves_a_ray allows
 };
 
-/// The closest hits of as many rays as bundles under way hold. Each bundle_size of them in a row
-/// make a bundle if they leave one origin in similar directions. hits[i] belongs to rays[i]; those
-/// of bundles that are not answered mean nothing. Once `stop` is requested answers may be misses.
+/// The closest hits of as many rays as bundles under way hold, or fewer; rays beyond the hits are
+/// those that will be asked for next. Each bundle_size of them in a row make a bundle if they leave
+/// one origin in similar directions. hits[i] belongs to rays[i]; those of bundles that are not
+/// answered mean nothing. Once `stop` is requested answers may be misses.
 BundleVerdicts closest_hits_bundles(const WideTree& tree, std::span<const Ray> rays,
                                     size_t leaves_a_ray, const StopFlag& stop, std::span<Hit> hits);
 

@@ -37,9 +37,11 @@ constexpr float greatest_spread = 0.5f;
 struct Bundle {
   static constexpr size_t max_groups = bundle_size / 4;
 
+  alignas(64) float direction_x[bundle_size];
+  alignas(64) float direction_y[bundle_size];
+  alignas(64) float speed[bundle_size];  // depth per unit of t: that of the direction
   alignas(64) float slope_x[bundle_size];
   alignas(64) float slope_y[bundle_size];
-  alignas(64) float speed[bundle_size];  // depth per unit of t
   // Depths. Beyond `start` and before `least` a hit certainly counts; beyond `most` none does.
   alignas(64) float start[bundle_size];
   alignas(64) float least[bundle_size];
@@ -68,8 +70,7 @@ HWY_INLINE void choose_axes(const Vec3f& direction, Bundle& bundle) {
   bundle.toward = std::copysign(1.0f, direction[z]);
 }
 
-/// From speeds, and slopes times speed: slopes, and those of each group. False where the rays'
-/// directions are not similar.
+/// Slopes, and those of each group. False where the rays' directions are not similar.
 HWY_INLINE bool find_slopes(Bundle& bundle) {
   const Floats d;
   const size_t width = hn::Lanes(d);
@@ -79,8 +80,8 @@ HWY_INLINE bool find_slopes(Bundle& bundle) {
   for (size_t group = 0; group < bundle.group_count; ++group) {
     const size_t i = group * width;
     const auto speed = hn::Load(d, bundle.speed + i);
-    const auto x = hn::Div(hn::Load(d, bundle.slope_x + i), speed);
-    const auto y = hn::Div(hn::Load(d, bundle.slope_y + i), speed);
+    const auto x = hn::Div(hn::Load(d, bundle.direction_x + i), speed);
+    const auto y = hn::Div(hn::Load(d, bundle.direction_y + i), speed);
     const auto is_fast = hn::And(hn::Gt(speed, hn::Set(d, least_coordinate)),
                                  hn::Lt(speed, hn::Set(d, greatest_coordinate)));
     const auto is_steep = hn::Le(hn::Max(hn::Abs(x), hn::Abs(y)), hn::Set(d, greatest_slope));
@@ -102,15 +103,15 @@ HWY_INLINE bool find_slopes(Bundle& bundle) {
   return hn::AllTrue(d, in_range) && hn::GetLane(spread) <= greatest_spread;
 }
 
-/// No ray has a winner yet. Rays that are not there have the slopes of the first, and no hit
+/// No ray has a winner yet. Rays that are not there have the direction of the first, and no hit
 /// counts.
 HWY_INLINE void fill_last_group(Bundle& bundle) {
   const size_t width = hn::Lanes(Floats());
   std::ranges::fill(bundle.winner, no_winner);
   bundle.group_count = (bundle.ray_count + width - 1) / width;
   for (size_t i = bundle.ray_count; i < bundle.group_count * width; ++i) {
-    bundle.slope_x[i] = bundle.slope_x[0];
-    bundle.slope_y[i] = bundle.slope_y[0];
+    bundle.direction_x[i] = bundle.direction_x[0];
+    bundle.direction_y[i] = bundle.direction_y[0];
     bundle.speed[i] = bundle.speed[0];
     bundle.start[i] = 0;
     bundle.least[i] = bundle.most[i] = nothing_counts;
@@ -178,8 +179,8 @@ HWY_INLINE bool gather_from_origin(const WideTree& tree, std::span<const Ray> ra
     bounded |= std::bit_cast<uint64_t>(ray.t_min);
     bounded |= std::bit_cast<uint64_t>(ray.t_max) ^ unbounded;
     const float* const direction = &ray.direction.x;
-    bundle.slope_x[i] = direction[x];
-    bundle.slope_y[i] = direction[y];
+    bundle.direction_x[i] = direction[x];
+    bundle.direction_y[i] = direction[y];
     bundle.speed[i] = direction[z] * bundle.toward;
   }
   if (differing != 0) return false;
@@ -231,8 +232,8 @@ HWY_INLINE bool gather_from_end(const WideTree& tree, std::span<const Ray> rays,
     const auto depth_at = [&](double t) {
       return static_cast<float>(std::max(from - t * double{speed}, -0x1p100));
     };
-    bundle.slope_x[i] = -ray.direction[x];
-    bundle.slope_y[i] = -ray.direction[y];
+    bundle.direction_x[i] = -ray.direction[x];
+    bundle.direction_y[i] = -ray.direction[y];
     bundle.speed[i] = speed;
     bundle.start[i] = std::max(depth_at(ray.t_max), 0.0f) + pad;
     bundle.least[i] = depth_at(ray.t_min) - pad;

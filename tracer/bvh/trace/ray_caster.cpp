@@ -80,9 +80,8 @@ size_t trace_many(const WideTree* tree, std::span<const Ray> rays, const StopFla
   for (size_t first = 0; first < last; first += rays_under_way) {
     if (stop.requested() || tries.skips_next()) continue;
     const size_t count = std::min(rays_under_way, last - first);
-    const BundleVerdicts verdicts =
-        kernels.bundles(*tree, rays.subspan(first, count), kernels.leaves_a_ray, stop,
-                        answers.subspan(first, count));
+    const BundleVerdicts verdicts = kernels.bundles(
+        *tree, rays.subspan(first), kernels.leaves_a_ray, stop, answers.subspan(first, count));
     tries.note(std::popcount(verdicts.answered), std::popcount(verdicts.given_up));
     for (uint32_t bits = verdicts.answered; bits != 0; bits &= bits - 1) {
       trace_rest(first + static_cast<size_t>(std::countr_zero(bits)) * bundle_size);

@@ -168,6 +168,16 @@ class BundleTraversal {
   /// Asks for what the next step needs.
   void fetch() const { prefetch(*tree_, &current_.child, 1); }
 
+  /// Rays that follow once this is answered: each call asks for some of them.
+  void set_upcoming(std::span<const Ray> rays) { upcoming_ = std::as_bytes(rays); }
+  void fetch_upcoming() {
+    constexpr size_t line = 64, lines_a_call = 4;
+    for (size_t i = 0; i < lines_a_call && !upcoming_.empty(); ++i) {
+      hwy::Prefetch(upcoming_.data());
+      upcoming_ = upcoming_.subspan(std::min(line, upcoming_.size()));
+    }
+  }
+
   void finish() {
     if constexpr (query == Query::closest_hit) {
       for (size_t first = 0; first < rays_.size(); first += hn::Lanes(Doubles())) {
@@ -256,6 +266,7 @@ class BundleTraversal {
 
   const WideTree* tree_;
   std::span<const Ray> rays_;
+  std::span<const std::byte> upcoming_;
   Answer* answers_;  // of closest hits, what was decided exactly; winners are not in it yet
   Bundle bundle_;
   BundleSlabs slabs_;
@@ -278,18 +289,22 @@ BundleVerdicts answer_bundles(const WideTree& tree, std::span<const Ray> rays, s
   BundleVerdicts verdicts;
   const auto step = [&](size_t i) {
     BundleTraversal<query>& bundle = bundles[i % together];
+    bundle.fetch_upcoming();
     const State state = bundle.step(stop);
     if (state == State::under_way) return true;
     if (state == State::answered) bundle.finish();
     (state == State::answered ? verdicts.answered : verdicts.given_up) |= 1u << i;
     return false;
   };
-  for (size_t i = 0; i * bundle_size < rays.size(); ++i) {
+  for (size_t i = 0; i * bundle_size < answers.size(); ++i) {
     const size_t first = i * bundle_size;
-    const size_t count = std::min(bundle_size, rays.size() - first);
+    const size_t count = std::min(bundle_size, answers.size() - first);
     const bool is_bundle = bundles[i % together].start(tree, rays.subspan(first, count),
                                                        leaves_a_ray, answers.subspan(first, count));
     if (!is_bundle) continue;
+    const size_t next = std::min(first + together * bundle_size, rays.size());
+    bundles[i % together].set_upcoming(
+        rays.subspan(next, std::min(bundle_size, rays.size() - next)));
     if constexpr (together == 1) {
       while (step(i)) {
       }

@@ -93,6 +93,34 @@ HWY_INLINE TriangleHitLanes intersect_triangles(const VectorLanes& origin,
   return {hn::Div(numerator, determinant), weight1, weight2, is_certain};
 }
 
+HWY_INLINE VectorLanes directions_of(const Bundle& bundle, size_t first) {
+  const Doubles d;
+  const hn::Rebind<float, Doubles> df;
+  const auto load = [&](const float* component) {
+    return hn::PromoteTo(d, hn::LoadU(df, component + first));
+  };
+  DoubleLanes lanes[3];
+  lanes[bundle.axis_x] = load(bundle.direction_x);
+  lanes[bundle.axis_y] = load(bundle.direction_y);
+  lanes[bundle.axis_z] = hn::Mul(load(bundle.speed), hn::Set(d, double{bundle.toward}));
+  return {lanes[0], lanes[1], lanes[2]};
+}
+
+/// Corners of the triangles that won, ray by ray.
+struct WinnerCorners {
+  alignas(64) float rows[9][hn::MaxLanes(Doubles())];
+
+  VectorLanes corner(size_t index) const {
+    const Doubles d;
+    const hn::Rebind<float, Doubles> df;
+    const auto load = [&](size_t row) { return hn::PromoteTo(d, hn::Load(df, rows[row])); };
+    return {load(3 * index), load(3 * index + 1), load(3 * index + 2)};
+  }
+  Vec3f vertex(size_t index, size_t ray) const {
+    return {rows[3 * index][ray], rows[3 * index + 1][ray], rows[3 * index + 2][ray]};
+  }
+};
+
 /// The winners of as many rays from `first` on as there are doubles in a vector.
 HWY_INLINE void finish_winners(const WideTree& tree, std::span<const Ray> rays,
                                const Bundle& bundle, size_t first, std::span<Hit> hits) {
@@ -100,49 +128,44 @@ HWY_INLINE void finish_winners(const WideTree& tree, std::span<const Ray> rays,
   const hn::Rebind<float, Doubles> df;
   const size_t width = hn::Lanes(Floats());
   const size_t count = hn::Lanes(d);
-  alignas(64) float corner[9][hn::MaxLanes(Doubles())];
-  alignas(64) float direction[3][hn::MaxLanes(Doubles())];
   const auto rows_of = [&](size_t winner) {
     return tree.blocks.row(0) + winner / width * (WideTree::rows_a_block * width) + winner % width;
   };
-  uint32_t won = 0;
-  const size_t last = std::min(first + count, rays.size());
-  for (size_t ray = first; ray < last; ++ray) {
-    won |= uint32_t{bundle.winner[ray] != no_winner} << (ray - first);
-  }
+  const hn::Rebind<uint32_t, Doubles> du;
+  const auto winners = hn::LoadU(du, bundle.winner + first);
+  uint32_t won = ~bits_of(du, hn::Eq(winners, hn::Set(du, no_winner))) & ((2u << (count - 1)) - 1);
   if (won == 0) return;
-  const size_t some_ray = first + static_cast<size_t>(std::countr_zero(won));
-  for (size_t i = 0; i < count; ++i) {
-    const size_t ray = (won >> i & 1) != 0 ? first + i : some_ray;
-    const float* v = rows_of(bundle.winner[ray]);
-    for (size_t row = 0; row < 9; ++row) corner[row][i] = v[row * width];
-    for (int axis = 0; axis < 3; ++axis) direction[axis][i] = rays[ray].direction[axis];
+  const auto some_ray = static_cast<size_t>(std::countr_zero(won));
+  const uint32_t some_winner = bundle.winner[first + some_ray];
+  WinnerCorners corners;
+  if ((~bits_of(du, hn::Eq(winners, hn::Set(du, some_winner))) & won) == 0) {
+    const float* v = rows_of(some_winner);
+    for (size_t row = 0; row < 9; ++row)
+      hn::Store(hn::Set(df, v[row * width]), df, corners.rows[row]);
+  } else {
+    for (size_t i = 0; i < count; ++i) {
+      const float* v = rows_of(bundle.winner[first + ((won >> i & 1) != 0 ? i : some_ray)]);
+      for (size_t row = 0; row < 9; ++row) corners.rows[row][i] = v[row * width];
+    }
   }
-  const auto load = [&](const float(*rows)[hn::MaxLanes(Doubles())]) {
-    return VectorLanes{hn::PromoteTo(d, hn::Load(df, rows[0])),
-                       hn::PromoteTo(d, hn::Load(df, rows[1])),
-                       hn::PromoteTo(d, hn::Load(df, rows[2]))};
-  };
   const auto spread = [&](float value) { return hn::Set(d, double{value}); };
   const VectorLanes origin{spread(bundle.point.x), spread(bundle.point.y), spread(bundle.point.z)};
-  const TriangleHitLanes found = intersect_triangles(origin, load(direction), load(corner),
-                                                     load(corner + 3), load(corner + 6));
+  const TriangleHitLanes found =
+      intersect_triangles(origin, directions_of(bundle, first), corners.corner(0),
+                          corners.corner(1), corners.corner(2));
   alignas(64) double t[hn::MaxLanes(Doubles())], weight1[hn::MaxLanes(Doubles())],
       weight2[hn::MaxLanes(Doubles())];
   hn::Store(found.t, d, t);
   hn::Store(found.u, d, weight1);
   hn::Store(found.v, d, weight2);
-  uint8_t certain[8];
-  hn::StoreMaskBits(d, found.is_certain, certain);
+  const uint32_t certain = bits_of(d, found.is_certain);
   for (; won != 0; won &= won - 1) {
     const auto i = static_cast<size_t>(std::countr_zero(won));
     const float* v = rows_of(bundle.winner[first + i]);
     Hit hit{t[i], weight1[i], weight2[i], std::bit_cast<uint32_t>(v[9 * width])};
-    if (HWY_UNLIKELY((certain[0] >> i & 1) == 0)) {
-      const auto vertex = [&](size_t row) {
-        return Vec3f(corner[row][i], corner[row + 1][i], corner[row + 2][i]);
-      };
-      const auto exact = intersect_triangle(rays[first + i], vertex(0), vertex(3), vertex(6));
+    if (HWY_UNLIKELY((certain >> i & 1) == 0)) {
+      const auto exact = intersect_triangle(rays[first + i], corners.vertex(0, i),
+                                            corners.vertex(1, i), corners.vertex(2, i));
       hit = exact ? Hit{exact->t, exact->u, exact->v, hit.primitive} : Hit{};
     }
     if (hit.is_closer_than(hits[first + i])) hits[first + i] = hit;

@@ -216,13 +216,18 @@ HWY_INLINE auto with_slabs(const RayConstants& c, const F& f) {
 }
 
 /// Lane i of the mask as bit i. Loads what was stored, no more, so that the store is forwarded.
-HWY_INLINE uint32_t bits_of(const hn::Mask<Floats>& mask) {
+template <class D>
+HWY_INLINE uint32_t bits_of(D d, const hn::Mask<D>& mask) {
   uint8_t bytes[8];
-  hn::StoreMaskBits(Floats(), mask, bytes);
-  if constexpr (hn::MaxLanes(Floats()) <= 8) return bytes[0];
+  hn::StoreMaskBits(d, mask, bytes);
+  if constexpr (hn::MaxLanes(d) <= 8) return bytes[0];
   uint16_t bits;
   std::memcpy(&bits, bytes, sizeof bits);
   return bits;
+}
+
+HWY_INLINE uint32_t bits_of(const hn::Mask<Floats>& mask) {
+  return bits_of(Floats(), mask);
 }
 
 /// Which children's boxes the ray may meet before t_far, and where it enters them.
