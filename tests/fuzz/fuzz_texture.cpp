@@ -11,6 +11,7 @@
 
 #include "tests/fuzz/check_obj.h"
 #include "tracer/scene/jpeg_tables.h"
+#include "tracer/scene/pnm_header.h"
 #include "tracer/scene/texture.h"
 
 namespace {
@@ -34,7 +35,8 @@ class MemoryFile {
 // would be the slowest and the most boring of inputs.
 bool is_large(const uint8_t* data, size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  if (!tracer::has_sound_huffman_tables(bytes)) return false;
+  if (!tracer::has_sound_huffman_tables(bytes) || !tracer::has_sound_pnm_header(bytes))
+    return false;
   int width = 0, height = 0, channels = 0;
   return stbi_info_from_memory(data, static_cast<int>(size), &width, &height, &channels) != 0 &&
          int64_t{width} * height > (1 << 18);

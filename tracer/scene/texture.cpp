@@ -11,6 +11,7 @@
 #include "tracer/base/error.h"
 #include "tracer/base/file_bytes.h"
 #include "tracer/scene/jpeg_tables.h"
+#include "tracer/scene/pnm_header.h"
 
 namespace tracer {
 namespace {
@@ -48,6 +49,7 @@ class Decoder {
     bytes_ = reinterpret_cast<const stbi_uc*>(file_.bytes().data());
     size_ = static_cast<int>(file_.bytes().size());
     if (!has_sound_huffman_tables(file_.bytes())) fail("a damaged JPEG: too many Huffman codes");
+    if (!has_sound_pnm_header(file_.bytes())) fail("a PNM too large, or of more than 8 bits");
     check_dimensions();
   }
 
