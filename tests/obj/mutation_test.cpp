@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/fuzz/check_against_reference.h"
 #include "tests/fuzz/check_obj.h"
 
 namespace tracer {
@@ -104,6 +105,11 @@ class Mutator {
 TEST(Mutation, no_obj_breaks_what_a_mesh_promises) {
   Mutator mutator(read_corpus("obj"), 1);
   for (int i = 0; i < 20'000; ++i) check_obj(mutator.next());
+}
+
+TEST(Mutation, no_obj_is_read_otherwise_than_by_the_slow_reference) {
+  Mutator mutator(read_corpus("obj"), 3);
+  for (int i = 0; i < 20'000; ++i) check_against_reference(mutator.next());
 }
 
 TEST(Mutation, no_mtl_breaks_what_a_material_promises) {

@@ -99,6 +99,9 @@ TEST(Texture, what_is_no_image_is_an_error_in_words) {
   EXPECT_EQ(load_error(""), ": the image file is empty");
   EXPECT_EQ(load_error("hello"), ": no image that can be read: unknown image type");
   EXPECT_EQ(load_error("P6\n60000 60000\n255\nx"), ": the image has too many pixels");
+  EXPECT_EQ(load_error("P5\n1 2\n260 x"), ": a PNM too large, or of more than 8 bits");
+  EXPECT_EQ(load_error("P5 99999999999 # 1\n1 255\n"), ": a PNM too large, or of more than 8 bits");
+  EXPECT_EQ(load_error("P5\n"), ": the image has no pixels");
   EXPECT_NE(load_error("\x89PNG\r\n\x1a\n"), "");
   EXPECT_THROW(load_texture("/nowhere/to/be/found.png"), LoadError);
 }

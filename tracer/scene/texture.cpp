@@ -10,6 +10,8 @@
 
 #include "tracer/base/error.h"
 #include "tracer/base/file_bytes.h"
+#include "tracer/scene/jpeg_tables.h"
+#include "tracer/scene/pnm_header.h"
 
 namespace tracer {
 namespace {
@@ -46,6 +48,8 @@ class Decoder {
     }
     bytes_ = reinterpret_cast<const stbi_uc*>(file_.bytes().data());
     size_ = static_cast<int>(file_.bytes().size());
+    if (!has_sound_huffman_tables(file_.bytes())) fail("a damaged JPEG: too many Huffman codes");
+    if (!has_sound_pnm_header(file_.bytes())) fail("a PNM too large, or of more than 8 bits");
     check_dimensions();
   }
 
@@ -67,6 +71,7 @@ class Decoder {
   void check_dimensions() const {
     int width = 0, height = 0, channels = 0;
     if (!stbi_info_from_memory(bytes_, size_, &width, &height, &channels)) fail_to_decode();
+    if (width < 1 || height < 1) fail("the image has no pixels");
     if (int64_t{width} * height > max_texels) fail("the image has too many pixels");
   }
 

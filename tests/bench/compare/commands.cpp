@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/compare/commands.h"
 
+#include "tests/bench/compare/load_memory.h"
+
 namespace bench {
 namespace {
 
@@ -10,6 +12,9 @@ constexpr Command table[] = {
     {"orbit", "from mouse events to changed pixels", measure_orbit},
     {"kernels", "ray-triangle tests: time against error, beside Embree", compare_kernels},
     {"exactness", "what exact leaves cost the traversal", measure_exactness},
+    {"load", "loaders of OBJ files: speed, memory, wrong numbers", compare_loads},
+    {"launch", "from starting the program to the first traced picture", measure_launch},
+    {"load-once", "", load_once},
 };
 
 }  // namespace

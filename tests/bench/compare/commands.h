@@ -16,10 +16,12 @@ int compare_builds(const Options& options);
 int measure_orbit(const Options& options);
 int compare_kernels(const Options& options);
 int measure_exactness(const Options& options);
+int compare_loads(const Options& options);
+int measure_launch(const Options& options);
 
 struct Command {
   std::string_view name;  // as on the command line
-  std::string_view what;
+  std::string_view what;  // empty: of no use to a user
   int (*run)(const Options& options);
 };
 

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <functional>
 #include <thread>
 
@@ -12,6 +11,7 @@
 
 #include "app/stopwatch.h"
 #include "tests/bench/compare/commands.h"
+#include "tests/bench/compare/load_files.h"
 #include "tests/bench/compare/mouse.h"
 #include "tests/bench/compare/report_files.h"
 #include "tests/bench/compare/screen_watch.h"
@@ -183,16 +183,6 @@ DragRecord measure_drag(const std::string& scene, const std::string& measure,
   return record;
 }
 
-void write_obj(const std::filesystem::path& path, const tracer::Mesh& mesh) {
-  std::ofstream file(path);
-  for (const tracer::Vec3f& position : mesh.positions) {
-    file << fmt::format("v {} {} {}\n", position.x, position.y, position.z);
-  }
-  for (const tracer::Vec3u& triangle : mesh.triangles) {
-    file << fmt::format("f {} {} {}\n", triangle.x + 1, triangle.y + 1, triangle.z + 1);
-  }
-}
-
 /// Adds records, and prints each as soon as it is there.
 class Report {
  public:
@@ -212,7 +202,7 @@ void measure_scene(const Scene& scene, const tests::VirtualDisplay& display, Eff
                    Report& report) {
   const tests::TemporaryFolder folder;
   const std::filesystem::path model = folder / fmt::format("{}.obj", scene.name);
-  write_obj(model, *scene.mesh);
+  write_obj(model, *scene.mesh, CornerContent::positions);
   const ViewerUnderTest viewer(model);
   const ScreenWatch screen(display);
   Mouse mouse;

@@ -23,6 +23,7 @@ std::string list_of_scenes() {
 std::string list_of_commands() {
   std::string list;
   for (const Command& command : commands()) {
+    if (command.what.empty()) continue;
     list += fmt::format("  {:<9} {}\n", command.name, command.what);
   }
   return list;
@@ -34,18 +35,36 @@ std::vector<std::string> command_names() {
   return names;
 }
 
+/// What a process tells those that it starts of itself.
+void add_hidden_options(CLI::App& app, Options& options) {
+  app.add_option("--loader", options.loader)->group("");
+  app.add_option("--file", options.file)->group("");
+  app.add_option("--threads", options.thread_count)->group("");
+}
+
+void check_scenes(const Options& options) {
+  if (options.command == "load") return;  // it has files instead
+  for (const std::string& name : options.scenes) {
+    if (find_scene_entry(name) != nullptr) continue;
+    throw std::invalid_argument("there is no scene '" + name + "'; there are:\n" +
+                                list_of_scenes());
+  }
+}
+
 }  // namespace
 
 std::optional<Options> parse_options(int argument_count, char** arguments) {
   Options options;
   bool is_quick = false;
   bool has_all_builders = false;
-  CLI::App app("Compares Boxwood with Embree, and measures what a user waits for");
+  CLI::App app("Compares Boxwood with others, and measures what a user waits for");
   app.footer("Commands:\n" + list_of_commands() + "\nScenes:\n" + list_of_scenes());
   app.add_option("command", options.command, "what to measure")
       ->required()
       ->check(CLI::IsMember(command_names()));
-  app.add_option("scenes,--scenes", options.scenes, "names, separated by commas")->delimiter(',');
+  app.add_option("scenes,--scenes", options.scenes,
+                 "names, separated by commas; of load: bunny, 12MB, 100MB, 400MB")
+      ->delimiter(',');
   app.add_flag("--quick", is_quick, "few small scenes, 3 repeats: done in a minute");
   app.add_flag("--builders", has_all_builders, "rays: trace the trees of every builder");
   CLI::Option* repeats =
@@ -53,6 +72,7 @@ std::optional<Options> parse_options(int argument_count, char** arguments) {
   app.add_option("--seconds", options.seconds_a_run, "rays: of one run, at most")
       ->check(CLI::PositiveNumber);
   app.add_option("--folder", options.folder, "where files are written");
+  add_hidden_options(app, options);
   try {
     app.parse(argument_count, arguments);
   } catch (const CLI::CallForHelp&) {
@@ -62,12 +82,7 @@ std::optional<Options> parse_options(int argument_count, char** arguments) {
   if (is_quick) options.effort = Effort::quick;
   if (is_quick && repeats->count() == 0) options.repeat_count = 3;
   if (has_all_builders) options.builders = BuilderChoice::all;
-  for (const std::string& name : options.scenes) {
-    if (find_scene_entry(name) == nullptr) {
-      throw std::invalid_argument("there is no scene '" + name + "'; there are:\n" +
-                                  list_of_scenes());
-    }
-  }
+  check_scenes(options);
   return options;
 }
 

@@ -20,6 +20,10 @@ struct Options {
   BuilderChoice builders = BuilderChoice::standard;
   double seconds_a_run = 0.4;  // rays are thinned until a run of the slowest takes no more
   std::filesystem::path folder = "build/bench";  // of the files it writes
+  // load-once: what a process of its own loads.
+  std::string loader;
+  std::filesystem::path file;
+  int thread_count = 1;
 };
 
 /// Nothing where only help was asked for. Throws CLI::Error, std::invalid_argument.

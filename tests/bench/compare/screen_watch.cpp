@@ -6,6 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -51,6 +52,24 @@ uint64_t ScreenWatch::fingerprint(const tests::Rectangle& area) const {
     }
   }
   return hash;
+}
+
+double ScreenWatch::part_of_commonest_color(const tests::Rectangle& area) const {
+  std::vector<uint32_t> colors;
+  for (int y = area.y0; y < std::min(area.y1, format_.height); y += 4) {
+    const char* row = bytes_ + format_.pixels_offset_bytes + y * format_.row_bytes;
+    for (int x = area.x0; x < std::min(area.x1, format_.width); x += 4) {
+      std::memcpy(&colors.emplace_back(), row + 4 * static_cast<size_t>(x), sizeof(uint32_t));
+    }
+  }
+  std::ranges::sort(colors);
+  std::ptrdiff_t most = 0;
+  for (auto at = colors.begin(); at != colors.end();) {
+    const auto end = std::upper_bound(at, colors.end(), *at);
+    most = std::max(most, end - at);
+    at = end;
+  }
+  return static_cast<double>(most) / static_cast<double>(colors.size());
 }
 
 std::optional<double> ScreenWatch::seconds_to_change(const tests::Rectangle& area, uint64_t before,

@@ -22,6 +22,9 @@ class ScreenWatch {
 
   /// Differs where the area's pixels do.
   uint64_t fingerprint(const tests::Rectangle& area) const;
+  /// The part of the area's pixels that have the color most of them have; of every fourth pixel of
+  /// every fourth row.
+  double part_of_commonest_color(const tests::Rectangle& area) const;
   /// Seconds until the fingerprint is no longer `before`, looked at twice a millisecond; nothing
   /// after `timeout_seconds`.
   std::optional<double> seconds_to_change(const tests::Rectangle& area, uint64_t before,
