@@ -131,7 +131,7 @@ void check_against_reference(std::string_view bytes) {
   const int64_t dropped_while_parsing = file.dropped_faces;
   const std::vector<ObjName> material_names = file.material_names;
   try {
-    const ObjMesh made = make_mesh(std::move(file), "x.obj", progress);
+    const ObjMesh made = make_mesh(file, "x.obj", progress);
     const Mesh& mesh = made.mesh;
     const Expected expected = expect(reference, mesh.origin);
     require(mesh.triangles.size() == expected.triangles.size(), "there are as many triangles");

@@ -61,7 +61,7 @@ inline void check_obj(std::string_view bytes) {
   }
   require(file.dropped_faces <= file.warnings.count(), "each dropped face has a warning");
   try {
-    const ObjMesh made = make_mesh(std::move(file), "x.obj", progress);
+    const ObjMesh made = make_mesh(file, "x.obj", progress);
     check_mesh(made.mesh);
     for (const uint32_t material : made.mesh.materials) {
       require(material < file.material_names.size(), "material in range");

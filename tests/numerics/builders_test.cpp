@@ -243,7 +243,8 @@ TEST(NumericsBuilders, triangles_not_finite_or_without_area_are_counted_and_all_
     text += "f -3 -2 -1\n";
   }
   Progress progress;
-  const ObjMesh loaded = make_mesh(parse_obj(text, "test.obj", progress), "test.obj", progress);
+  ObjFile file = parse_obj(text, "test.obj", progress);
+  const ObjMesh loaded = make_mesh(file, "test.obj", progress);
   EXPECT_EQ(loaded.dropped_faces, bad_count);
   EXPECT_GT(bad_count, 0u);
   ASSERT_EQ(loaded.mesh.triangle_count(), count - bad_count);

@@ -45,7 +45,8 @@ TEST(NumericsPlaceAndScale, positions_are_within_half_a_unit_of_the_text_after_r
       text += fmt::format("f {} {} {}\n", i + 1, i + 2, i + 3);
     }
     Progress progress;
-    const Mesh mesh = make_mesh(parse_obj(text, "test.obj", progress), "test.obj", progress).mesh;
+    ObjFile file = parse_obj(text, "test.obj", progress);
+    const Mesh mesh = make_mesh(file, "test.obj", progress).mesh;
     for (size_t i = 0; i < vertices.size(); ++i) {
       for (size_t axis = 0; axis < 3; ++axis) {
         const int a = static_cast<int>(axis);

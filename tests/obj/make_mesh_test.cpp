@@ -13,7 +13,8 @@ namespace {
 
 ObjMesh make(std::string_view text) {
   Progress progress;
-  return make_mesh(parse_obj(text, "x.obj", progress), "x.obj", progress);
+  ObjFile file = parse_obj(text, "x.obj", progress);
+  return make_mesh(file, "x.obj", progress);
 }
 
 std::string load_error(std::string_view text) {
@@ -158,7 +159,7 @@ TEST(MakeMesh, a_stop_ends_it) {
   Progress progress;
   ObjFile file = parse_obj(square + "f 1 2 3\n", "x.obj", progress);
   progress.request_stop();
-  EXPECT_THROW(make_mesh(std::move(file), "x.obj", progress), Cancelled);
+  EXPECT_THROW(make_mesh(file, "x.obj", progress), Cancelled);
 }
 
 }  // namespace

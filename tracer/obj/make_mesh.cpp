@@ -82,7 +82,7 @@ std::string why_nothing_to_show(const ObjFile& file) {
 
 }  // namespace
 
-ObjMesh make_mesh(ObjFile&& file, const std::string& path, Progress& progress) {
+ObjMesh make_mesh(ObjFile& file, const std::string& path, Progress& progress) {
   progress.start_stage("making triangles");
   progress.throw_if_stopped();
   ObjMesh made;

@@ -16,8 +16,8 @@ struct ObjMesh {
 
 /// Triangulates (concave polygons by ear clipping in the polygon's own plane), subtracts the
 /// centre of the bounds in double and rounds once to float. Lets go of the file's vertices and
-/// faces as it goes, and leaves the rest. Throws LoadError when no triangle is left, Cancelled when
-/// asked to stop.
-ObjMesh make_mesh(ObjFile&& file, const std::string& path, Progress& progress);
+/// faces as it goes, and leaves the rest of it. Throws LoadError when no triangle is left,
+/// Cancelled when asked to stop.
+ObjMesh make_mesh(ObjFile& file, const std::string& path, Progress& progress);
 
 }  // namespace tracer

@@ -38,7 +38,7 @@ std::vector<bool> find_textured_materials(const Mesh& mesh, size_t material_coun
 ImportedScene import_obj(const std::filesystem::path& path, Progress& progress) {
   const std::string name = name_of_input(path);
   auto [file, byte_count] = read_obj(path, name, progress);
-  ObjMesh made = make_mesh(std::move(file), name, progress);
+  ObjMesh made = make_mesh(file, name, progress);
 
   ImportedScene result;
   result.has_normals = !made.mesh.normals.empty();
