@@ -55,9 +55,9 @@ WatchedRun run_watched(const std::string& model) {
   const double seconds_before = processor_seconds_of_children();
   ChildProgram program(BOXWOOD_PROGRAM, {"info", model, "--bvh", "off"});
   std::atomic<bool> is_done{false};
-  std::thread watch([&] {
+  std::thread watch([&, pid = program.pid()] {
     while (!is_done) {
-      run.most_megabytes = std::max(run.most_megabytes, own_megabytes(program.pid()));
+      run.most_megabytes = std::max(run.most_megabytes, own_megabytes(pid));
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   });
