@@ -37,6 +37,10 @@ double processor_seconds_of_children() {
 
 /// What a process holds at the moment beside what it has mapped of files; 0 when it is gone.
 double own_megabytes(pid_t pid) {
+  // Before it becomes the program, a child has this test's memory.
+  std::error_code gone;
+  const auto program = std::filesystem::read_symlink("/proc/" + std::to_string(pid) + "/exe", gone);
+  if (gone || program.filename() != std::filesystem::path(BOXWOOD_PROGRAM).filename()) return 0;
   std::ifstream status("/proc/" + std::to_string(pid) + "/status");
   for (std::string line; std::getline(status, line);) {
     if (line.starts_with("RssAnon:")) return std::stod(line.substr(8)) / 1024;

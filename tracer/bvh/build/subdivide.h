@@ -23,7 +23,7 @@ struct PrimitiveRange {
 
 /// Ranges above this size are split in parallel: by the range alone, as the order of nodes depends
 /// on it.
-inline constexpr uint32_t task_size = 8192;
+inline constexpr uint32_t task_size = 1024;
 
 /// Calls f(i) for each i in the range, looking at the stop flag every few thousand.
 template <class F>
