@@ -65,9 +65,8 @@ class BinnedBuild {
     for_each_chunk(range, progress_, [&](uint32_t chunk, PrimitiveRange part) {
       Box4 all, half_centers;
       for (uint32_t i = part.begin; i < part.end; ++i) {
-        const Reference reference(boxes_[i], i);
-        buffers_[0][i] = reference;
-        const Box4 box = reference.box();
+        std::construct_at(&buffers_[0][i], boxes_[i], i);
+        const Box4 box(boxes_[i]);
         all.extend(box);
         half_centers.extend(half_center_of(box));
       }

@@ -43,7 +43,8 @@ class CurveGrid {
 // More are told apart by 10 bits along each axis, fewer by 8, sorted in two passes for three.
 constexpr uint32_t most_on_coarse_grid = 1 << 18;
 
-constexpr uint32_t largest_serial_count = 4096;
+// A split is a search, where others look at every primitive.
+constexpr uint32_t search_task_size = 2 * task_size;
 
 class MortonBuild {
  public:
@@ -123,7 +124,7 @@ class MortonBuild {
   }
 
   void split_all(PrimitiveRange range, int depth, Shape& shape) {
-    if (range.count() <= largest_serial_count || is_leaf(range, depth)) {
+    if (range.count() <= search_task_size || is_leaf(range, depth)) {
       progress_.throw_if_stopped();
       shape.middles.reserve(likely_node_count(range.count(), leaf_size_) / 2);
       split_serially(range, depth, shape.middles);

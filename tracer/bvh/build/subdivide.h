@@ -56,7 +56,7 @@ void build_both(TreePart& part, F&& build_left, G&& build_right) {
 
 /// Room for most subtrees that one task makes.
 inline size_t likely_node_count(uint32_t primitive_count, int leaf_size) {
-  return 2 + 4 * std::min(primitive_count, task_size) / static_cast<uint32_t>(leaf_size);
+  return 2 + 4 * std::min(primitive_count, 2 * task_size) / static_cast<uint32_t>(leaf_size);
 }
 
 /// Splits ranges until they are small or deep enough. A Splitter has, callable at the same time

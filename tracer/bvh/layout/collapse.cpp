@@ -13,9 +13,6 @@ namespace {
 constexpr float node_cost = 1.0f;
 constexpr float block_cost = 1.0f;
 
-// Subtrees above this size are planned in parallel.
-constexpr uint32_t largest_serial_count = 4096;
-
 double square(double x) {
   return x * x;
 }
@@ -79,7 +76,7 @@ void Collapse::plan(uint32_t node, PrimitiveRange range, Forest& forest) {
   Forest left_forest, right_forest;
   const auto plan_left = [&] { plan(left, {range.begin, middle}, left_forest); };
   const auto plan_right = [&] { plan(left + 1, {middle, range.end}, right_forest); };
-  if (range.count() <= largest_serial_count) {
+  if (range.count() <= task_size) {
     plan_left();
     plan_right();
   } else {

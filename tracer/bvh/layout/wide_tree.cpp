@@ -22,9 +22,6 @@ FloatRows::FloatRows(size_t row_count, int width) : row_count_(row_count), width
 
 namespace {
 
-// Subtrees of more triangles are written in parallel.
-constexpr uint32_t largest_serial_count = 4096;
-
 constexpr size_t core_cache_bytes = size_t{1} << 21;
 constexpr size_t shared_cache_bytes = 16 << 20;
 
@@ -81,7 +78,7 @@ class WideTreeWriter {
       }
     };
     const uint32_t primitive_count = collapse_.part(node).range.count();
-    if (primitive_count > largest_serial_count) {
+    if (primitive_count > task_size) {
       parallel_for_each_index(0, children.count, write_child);
       progress_.throw_if_stopped();
     } else {
