@@ -36,21 +36,29 @@ Vec3d shading_normal(const Scene& scene, const Hit& hit, const Vec3d& geometric_
   return glm::dot(normal, geometric_normal) < 0 ? -normal : normal;
 }
 
+double square(double x) {
+  return x * x;
+}
+
+/// Squares of the lengths of the sides opposite v0, v1 and v2.
+Vec3d squared_sides(const Triangle& triangle) {
+  const auto squared_length = [](const Vec3d& v) { return glm::dot(v, v); };
+  return {squared_length(triangle.v2 - triangle.v1), squared_length(triangle.v0 - triangle.v2),
+          squared_length(triangle.v1 - triangle.v0)};
+}
+
 /// A point of the triangle near `position`, at least `distance` from its edges where it is that
 /// large. Rays that start there are not pushed through the neighbour across an edge.
-Vec3d keep_off_edges(const Triangle& triangle, const Hit& hit, const Vec3d& position,
-                     double distance) {
-  const double twice_area = 2 * triangle.area();
+Vec3d keep_off_edges(const Triangle& triangle, const Vec3d& area_normal, const Hit& hit,
+                     const Vec3d& position, double distance) {
+  // The height over a side is twice the area / side.
+  const Vec3d least_squares =
+      square(distance) / glm::dot(area_normal, area_normal) * squared_sides(triangle);
   Vec3d weights(1 - hit.u - hit.v, hit.u, hit.v);
-  const Vec3d opposite_sides(glm::length(triangle.v2 - triangle.v1),
-                             glm::length(triangle.v0 - triangle.v2),
-                             glm::length(triangle.v1 - triangle.v0));
   bool is_clear = true;
   for (int i = 0; i < 3; ++i) {
-    // The height over a side is twice_area / side.
-    const double least = std::min(distance * opposite_sides[i] / twice_area, 0.25);
-    if (weights[i] >= least) continue;
-    weights[i] = least;
+    if (weights[i] >= 0 && square(weights[i]) >= std::min(least_squares[i], square(0.25))) continue;
+    weights[i] = std::min(std::sqrt(least_squares[i]), 0.25);
     is_clear = false;
   }
   if (is_clear) return position;
@@ -85,10 +93,10 @@ double clearance_of(const Triangle& triangle, const Vec3d& normal) {
 Surface surface_at(const Scene& scene, const Hit& hit, const Vec3d& ray_direction) {
   const Triangle triangle = triangle_at(*scene.mesh, hit.primitive);
   const Material& material = (*scene.materials)[scene.mesh->material_of(hit.primitive)];
-  const Vec3d back = unit_or(-ray_direction, {0, 0, 1});
-  const Vec3d normal = unit_or(triangle.area_normal(), back);
+  const Vec3d area_normal = triangle.area_normal();
+  const Vec3d normal = unit_or(area_normal, {0, 0, 1});
   Surface surface;
-  surface.geometric_normal = glm::dot(normal, back) < 0 ? -normal : normal;
+  surface.geometric_normal = glm::dot(normal, ray_direction) > 0 ? -normal : normal;
   surface.shading_normal = shading_normal(scene, hit, surface.geometric_normal);
   surface.albedo = glm::clamp(diffuse_color(scene, material, hit), 0.0, 1.0);
   surface.emission = Vec3d(material.emission);
@@ -96,7 +104,8 @@ Surface surface_at(const Scene& scene, const Hit& hit, const Vec3d& ray_directio
   // What offset_origin may move the point sideways, for neighbours at angles of 15 degrees or more.
   const Vec3d position = triangle.at(hit.u, hit.v);
   const double rounding = 0x1p-24 * glm::dot(glm::abs(position), Vec3d(1));
-  surface.position = keep_off_edges(triangle, hit, position, 4 * (surface.clearance + rounding));
+  surface.position =
+      keep_off_edges(triangle, area_normal, hit, position, 4 * (surface.clearance + rounding));
   surface.triangle = hit.primitive;
   return surface;
 }
