@@ -114,7 +114,32 @@ TEST(NumericsWholeImage, no_builder_layout_instruction_set_or_number_of_threads_
   }
 }
 
-// Else the test above would hold for any picture.
+TEST(NumericsWholeImage, no_size_of_tiles_changes_a_bit) {
+  const uint32_t samples = is_long() ? 4 : 2;
+  const StopFlag never;
+  for (const Picture& picture : pictures) {
+    const World world = in_production(make_world(picture));
+    for (const Integrator& integrator : integrators()) {
+      const std::string property =
+          fmt::format("pixels of {}, {}, in tiles of any size", picture.name, integrator.name);
+      const ProgressLine progress(property, 1);
+      const Film expected = test::render(world, integrator, {}, size_px, samples);
+      Tally tally;
+      // From a tile a pixel to one of all; 13 and 33 cut blocks and coarse grids anywhere.
+      for (const int side_px : {1, 4, 13, 33, size_px.x}) {
+        const std::vector<Tile> tiles = make_tiles(size_px, side_px);
+        Film film(size_px);
+        for (Pass pass = first_pass; pass.sample < samples; pass = next_pass(pass)) {
+          render_tiles(world, integrator, {}, pass, tiles, film, never);
+        }
+        check_same(tally, film, expected, fmt::format("tiles of {} px", side_px));
+      }
+      expect_holds(property, tally);
+    }
+  }
+}
+
+// Else the tests above would hold for any picture.
 TEST(NumericsWholeImage, another_seed_changes_bits) {
   const World world = in_production(make_world(pictures[0]));
   const Integrator& path = *find_integrator("path");

@@ -7,12 +7,11 @@
 
 namespace tracer {
 
-std::vector<Tile> make_tiles(Vec2i size_px) {
+std::vector<Tile> make_tiles(Vec2i size_px, int side_px) {
   std::vector<Tile> tiles;
-  for (int y = 0; y < size_px.y; y += tile_size_px) {
-    for (int x = 0; x < size_px.x; x += tile_size_px) {
-      tiles.push_back(
-          {x, y, std::min(x + tile_size_px, size_px.x), std::min(y + tile_size_px, size_px.y)});
+  for (int y = 0; y < size_px.y; y += side_px) {
+    for (int x = 0; x < size_px.x; x += side_px) {
+      tiles.push_back({x, y, std::min(x + side_px, size_px.x), std::min(y + side_px, size_px.y)});
     }
   }
   const auto distance = [&](const Tile& tile) {

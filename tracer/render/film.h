@@ -24,7 +24,7 @@ struct Tile {
 inline constexpr int tile_size_px = 64;
 
 /// Tiles of an image in the order they are rendered: from the centre outwards, where people look.
-std::vector<Tile> make_tiles(Vec2i size_px);
+std::vector<Tile> make_tiles(Vec2i size_px, int side_px = tile_size_px);
 
 /// Sums of samples in double, one owner a pixel at a time; a pixel's samples are added in the
 /// order of their index, so the bits do not depend on threads or tiles.

@@ -194,8 +194,15 @@ Pass next_pass(const Pass& pass) {
 PassStats render_pass(const World& world, const Integrator& integrator,
                       const RenderSettings& settings, const Pass& pass, Film& film,
                       const StopFlag& stop, const TileCallback& on_tile) {
+  return render_tiles(world, integrator, settings, pass, make_tiles(film.size_px()), film, stop,
+                      on_tile);
+}
+
+PassStats render_tiles(const World& world, const Integrator& integrator,
+                       const RenderSettings& settings, const Pass& pass,
+                       std::span<const Tile> tiles, Film& film, const StopFlag& stop,
+                       const TileCallback& on_tile) {
   const PassContext context{world, integrator, settings, pass, film, stop};
-  const std::vector<Tile> tiles = make_tiles(film.size_px());
   std::vector<PassStats> parts(tiles.size());
   parallel_in_order(tiles.size(), [&](size_t i) {
     parts[i] = TileRenderer(context, tiles[i]).run();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "tracer/base/progress.h"
@@ -51,6 +52,12 @@ using TileCallback = std::function<void(const Tile&)>;
 PassStats render_pass(const World& world, const Integrator& integrator,
                       const RenderSettings& settings, const Pass& pass, Film& film,
                       const StopFlag& stop, const TileCallback& on_tile = {});
+
+/// The pass in these tiles, no two of which have a pixel in common.
+PassStats render_tiles(const World& world, const Integrator& integrator,
+                       const RenderSettings& settings, const Pass& pass,
+                       std::span<const Tile> tiles, Film& film, const StopFlag& stop,
+                       const TileCallback& on_tile = {});
 
 /// The radiance of one sample of one pixel, as render_pass computes it.
 Vec3d render_sample(const World& world, const Integrator& integrator,

@@ -36,7 +36,7 @@ bool MoellerClosestHit(const WideTree& tree, const Ray& ray, const StopFlag& sto
 }
 
 bool MoellerOccluded(const WideTree& tree, const Ray& ray, const StopFlag& stop, Hit& hit) {
-  return answer<Query::occluded, MoellerTrumboreLeaf>(tree, ray, stop, NoProbe{}, hit);
+  return answer<Query::occluded, AnyMoellerTrumboreLeaf>(tree, ray, stop, NoProbe{}, hit);
 }
 
 size_t MoellerClosestHits(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop,
@@ -47,7 +47,7 @@ size_t MoellerClosestHits(const WideTree& tree, std::span<const Ray> rays, const
 
 size_t MoellerOccludedRays(const WideTree& tree, std::span<const Ray> rays, const StopFlag& stop,
                            std::span<uint8_t> is_occluded) {
-  return answer_stream<Query::occluded, MoellerTrumboreLeaf>(
+  return answer_stream<Query::occluded, AnyMoellerTrumboreLeaf>(
       tree, rays, stop,
       [&](size_t ray, const Hit& hit) { is_occluded[ray] = hit.is_hit() ? 1 : 0; });
 }

@@ -86,10 +86,22 @@ HWY_INLINE Vectors<Lanes> corners_of(const float* HWY_RESTRICT rows, size_t corn
   return {hn::Load(d, rows), hn::Load(d, rows + width), hn::Load(d, rows + 2 * width)};
 }
 
+/// The hits of a block, as float arithmetic takes them.
+HWY_INLINE auto meet_block(const float* HWY_RESTRICT rows, const RayConstants& c, const Ray& ray,
+                           float t_far) {
+  const Floats d;
+  return meet_moeller_trumbore(d, spread(ray.origin), spread(ray.direction), corners_of(rows, 0),
+                               corners_of(rows, 1), corners_of(rows, 2),
+                               hn::Set(d, static_cast<float>(ray.t_min)),
+                               hn::Set(d, t_far + static_cast<float>(c.t_offset)));
+}
+
+HWY_INLINE uint32_t filled_lanes(const WideTree::BlockInfo& info) {
+  return (2u << (info.count - 1)) - 1;
+}
+
 /// A leaf for the production traversal: a hit is what float arithmetic takes for one, t a float.
 struct MoellerTrumboreLeaf {
-  static constexpr bool is_final = true;
-
   struct Found {
     uint32_t possible;
     alignas(64) float determinant[hn::MaxLanes(Floats())];
@@ -102,13 +114,9 @@ struct MoellerTrumboreLeaf {
   static HWY_INLINE Found find(const float* HWY_RESTRICT rows, const WideTree::BlockInfo& info,
                                const RayConstants& c, const Ray& ray, float, float t_far) {
     const Floats d;
-    const auto met = meet_moeller_trumbore(
-        d, spread(ray.origin), spread(ray.direction), corners_of(rows, 0), corners_of(rows, 1),
-        corners_of(rows, 2), hn::Set(d, static_cast<float>(ray.t_min)),
-        hn::Set(d, t_far + static_cast<float>(c.t_offset)));
-    const uint32_t filled = (2u << (info.count - 1)) - 1;
+    const auto met = meet_block(rows, c, ray, t_far);
     Found found;
-    found.possible = bits_of(met.is_hit) & filled;
+    found.possible = bits_of(met.is_hit) & filled_lanes(info);
     if constexpr (flow == Flow::leaves_early) {
       if (HWY_LIKELY(found.possible == 0)) return found;
     }
@@ -125,6 +133,22 @@ struct MoellerTrumboreLeaf {
     return {found.numerator[lane] * inverse, found.weight1[lane] * inverse,
             found.weight2[lane] * inverse,
             std::bit_cast<uint32_t>(rows[9 * hn::Lanes(Floats()) + static_cast<size_t>(lane)])};
+  }
+};
+
+/// The same where any hit will do: nothing is divided or kept.
+struct AnyMoellerTrumboreLeaf {
+  struct Found {
+    uint32_t possible;
+  };
+
+  template <Slabs slabs, Flow flow>
+  static HWY_INLINE Found find(const float* HWY_RESTRICT rows, const WideTree::BlockInfo& info,
+                               const RayConstants& c, const Ray& ray, float, float t_far) {
+    return {bits_of(meet_block(rows, c, ray, t_far).is_hit) & filled_lanes(info)};
+  }
+  static HWY_INLINE Hit hit(const float* HWY_RESTRICT, const Found&, int, const Ray&) {
+    return {.t = 0, .primitive = 0};
   }
 };
 

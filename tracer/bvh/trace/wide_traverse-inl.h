@@ -180,8 +180,6 @@ HWY_INLINE Hit hit_exactly(const float* HWY_RESTRICT v, size_t width, const Ray&
 
 /// The triangles of a block, decided exactly. Benchmarks traverse with leaves of other kinds.
 struct ExactLeaf {
-  static constexpr bool is_final = false;  // whether what is possible is a hit
-
   struct Found {
     uint32_t possible;  // lanes
   };
@@ -231,12 +229,6 @@ HWY_NOINLINE void traverse(const WideTree& tree, const Ray& ray, const RayConsta
         const float* rows = blocks + block * (WideTree::rows_a_block * width);
         const auto hits = Leaf::template find<slabs, Flow::leaves_early>(rows, info, constants, ray,
                                                                          entry, t_far);
-        if constexpr (query == Query::occluded && Leaf::is_final) {
-          if (hits.possible != 0) {
-            best.primitive = 0;
-            return;
-          }
-        }
         for (uint32_t bits = hits.possible; bits != 0; bits &= bits - 1) {
           probe.exact_test();
           const Hit hit = Leaf::hit(rows, hits, std::countr_zero(bits), ray);
