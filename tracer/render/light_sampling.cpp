@@ -13,9 +13,11 @@ double solid_angle_pdf(double area, double distance, double cosine) {
   return cosine > 0 && area > 0 ? distance * distance / (cosine * area) : 0;
 }
 
-size_t pick_light(const EmissiveTriangles& lights, double u) {
-  const auto light = std::upper_bound(lights.cumulative.begin(), lights.cumulative.end(), u);
-  return std::min<size_t>(light - lights.cumulative.begin(), lights.triangles.size() - 1);
+LightTree::Pick pick_by_power(const EmissiveTriangles& lights, double u) {
+  const auto found = std::upper_bound(lights.cumulative.begin(), lights.cumulative.end(), u);
+  const auto light =
+      std::min<size_t>(found - lights.cumulative.begin(), lights.triangles.size() - 1);
+  return {static_cast<uint32_t>(light), lights.probabilities[light]};
 }
 
 /// The ray from the surface to `point` on a light whose unit normal towards the surface is given.
@@ -31,35 +33,75 @@ Ray make_shadow_ray(const Surface& surface, const Vec3d& point, const Vec3d& lig
 
 }  // namespace
 
-LightSample sample_light(const Scene& scene, const Surface& surface, Sampler& sampler) {
-  const size_t light = pick_light(*scene.lights, sampler.next());
-  const uint32_t index = scene.lights->triangles[light];
-  const Triangle triangle = triangle_at(*scene.mesh, index);
-  const Vec2d weights = sample_triangle(sampler.next_2d());
+LightReceiver receiver_of(const Surface& surface) {
+  return {offset_origin(surface), Vec3f(surface.shading_normal)};
+}
+
+Lights::Lights(const World& world, const RenderSettings& settings)
+    : scene_(*world.scene), triangles_(*world.scene->lights), sky_(world, settings) {
+  const bool has_triangles = !triangles_.empty();
+  const bool has_sky = sky_.is_sampled();
+  sky_share_ = has_sky ? (has_triangles ? 0.5 : 1) : 0;
+  triangle_share_ = has_triangles ? 1 - sky_share_ : 0;
+}
+
+LightSample Lights::sample(const Surface& surface, double which, const Vec2d& where) const {
+  if (which < sky_share_) return sample_sky(surface, where);
+  const double rest = (which - sky_share_) / triangle_share_;
+  return sample_triangle(surface, pick_triangle(surface, rest), where);
+}
+
+LightSample Lights::sample_sky(const Surface& surface, const Vec2d& where) const {
+  const Environment::Sample found = sky_.sample(where);
+  LightSample sample;
+  sample.triangle = no_primitive;
+  sample.direction = found.direction;
+  sample.radiance = sky_.radiance(found.direction);
+  sample.pdf = sky_share_ * found.pdf;
+  sample.shadow_ray = {.origin = offset_origin(surface), .direction = Vec3f(found.direction)};
+  return sample;
+}
+
+LightTree::Pick Lights::pick_triangle(const Surface& surface, double u) const {
+  if (triangles_.tree.empty()) return pick_by_power(triangles_, u);
+  return triangles_.tree.pick(receiver_of(surface), u);
+}
+
+double Lights::probability_of(const LightReceiver& receiver, uint32_t light) const {
+  if (triangles_.tree.empty()) return triangles_.probabilities[light];
+  return triangles_.tree.probability(receiver, light);
+}
+
+LightSample Lights::sample_triangle(const Surface& surface, const LightTree::Pick& pick,
+                                    const Vec2d& where) const {
+  const uint32_t index = triangles_.triangles[pick.light];
+  const Triangle triangle = triangle_at(*scene_.mesh, index);
+  const Vec2d weights = tracer::sample_triangle(where);
   const Vec3d point = triangle.at(weights.x, weights.y);
   const Vec3d to_light = point - surface.position;
 
   LightSample sample;
   sample.triangle = index;
   sample.direction = unit_or(to_light, surface.geometric_normal);
-  sample.radiance = Vec3d((*scene.materials)[scene.mesh->material_of(index)].emission);
+  sample.radiance = Vec3d((*scene_.materials)[scene_.mesh->material_of(index)].emission);
   Vec3d normal = unit_or(triangle.area_normal(), -sample.direction);
   if (glm::dot(normal, sample.direction) > 0) normal = -normal;
   sample.pdf =
-      scene.lights->probabilities[light] *
+      triangle_share_ * pick.probability *
       solid_angle_pdf(triangle.area(), glm::length(to_light), -glm::dot(normal, sample.direction));
   sample.shadow_ray = make_shadow_ray(surface, point, normal, clearance_of(triangle, normal));
   return sample;
 }
 
-double pdf_light(const Scene& scene, uint32_t triangle, const Ray& ray, double t) {
-  const std::vector<uint32_t>& lights = scene.lights->triangles;
+double Lights::pdf(const LightReceiver& receiver, uint32_t triangle, const Ray& ray,
+                   double t) const {
+  const std::vector<uint32_t>& lights = triangles_.triangles;
   const auto light = std::lower_bound(lights.begin(), lights.end(), triangle);
   if (light == lights.end() || *light != triangle) return 0;
-  const Triangle corners = triangle_at(*scene.mesh, triangle);
+  const Triangle corners = triangle_at(*scene_.mesh, triangle);
   const Vec3d direction = unit_or(Vec3d(ray.direction), Vec3d(0));
   const Vec3d normal = unit_or(corners.area_normal(), Vec3d(0));
-  return scene.lights->probabilities[light - lights.begin()] *
+  return triangle_share_ * probability_of(receiver, static_cast<uint32_t>(light - lights.begin())) *
          solid_angle_pdf(corners.area(), t * glm::length(Vec3d(ray.direction)),
                          std::abs(glm::dot(normal, direction)));
 }
