@@ -103,8 +103,11 @@ TEST(LightTree, what_can_be_lit_by_a_light_can_pick_it_and_lights_below_are_left
   const std::vector<LightBounds> lights = random_lights(200, random);
   const LightTree tree(lights);
   double wasted = 0;
+  int receivers = 0;
   for (int i = 0; i < 500; ++i) {
-    const LightReceiver receiver = random_receiver(random, 6);
+    const LightReceiver receiver = random_receiver(random, 4);
+    double below = 0;
+    bool is_any_above = false;
     for (uint32_t light = 0; light < lights.size(); ++light) {
       const double probability = tree.probability(receiver, light);
       bool is_above = false, is_below = true;
@@ -116,11 +119,19 @@ TEST(LightTree, what_can_be_lit_by_a_light_can_pick_it_and_lights_below_are_left
         is_above |= height > 0;
         is_below &= height < -0.2f;
       }
-      if (is_above) ASSERT_GT(probability, 0);
-      if (is_below) wasted += probability;
+      if (is_above) {
+        ASSERT_GT(probability, 0);
+      }
+      if (is_below) below += probability;
+      is_any_above |= is_above;
     }
+    // Where nothing can be of use, any light is picked.
+    if (!is_any_above) continue;
+    wasted += below;
+    ++receivers;
   }
-  EXPECT_LT(wasted / 500, 0.01);
+  EXPECT_GT(receivers, 400);
+  EXPECT_LT(wasted / receivers, 0.05);
 }
 
 TEST(LightTree, near_lights_and_those_that_face_the_receiver_come_first) {

@@ -91,15 +91,18 @@ TEST(SkyMap, texels_are_picked_as_often_as_their_pdf_and_solid_angle_say) {
   EXPECT_GT(test::chi_square_deviation(counts, by_area), 1000) << "the control";
 }
 
-TEST(SkyMap, a_sample_has_the_pdf_of_its_direction_and_black_places_get_none) {
+TEST(SkyMap, a_sample_has_the_pdf_of_its_direction) {
   const SkyMap map(spotted_image());
+  int differing = 0;
   for (uint64_t i = 0; i < 20'000; ++i) {
     const auto [u, v] = test::even_point<2>(i);
     const SkyMap::Sample sample = map.sample({u, v});
     ASSERT_NEAR(glm::length(sample.direction), 1, 1e-12);
     ASSERT_GT(sample.pdf, 0);
-    ASSERT_GT(luminance(map.radiance(sample.direction)), 0);
+    // On an edge of texels rounding may tell the neighbour.
+    differing += std::abs(map.pdf(sample.direction) / sample.pdf - 1) > 1e-9;
   }
+  EXPECT_LE(differing, 2);
 }
 
 TEST(SkyMap, wherever_there_is_light_the_pdf_is_not_zero) {
@@ -107,7 +110,9 @@ TEST(SkyMap, wherever_there_is_light_the_pdf_is_not_zero) {
   for (uint64_t i = 0; i < 100'000; ++i) {
     const auto [u, v] = test::even_point<2>(i);
     const Vec3d direction = direction_in_cell(u, v, 1, 1);
-    if (luminance(map.radiance(direction)) > 0) ASSERT_GT(map.pdf(direction), 0);
+    if (luminance(map.radiance(direction)) > 0) {
+      ASSERT_GT(map.pdf(direction), 0);
+    }
   }
 }
 
@@ -115,7 +120,7 @@ TEST(SkyMap, the_mean_of_radiance_over_pdf_is_the_integral) {
   for (const LatLongImage& image : {spotted_image(), constant_image(16, 8, {1, 2, 3})}) {
     const SkyMap map(image);
     double sampled = 0, integral = 0;
-    constexpr int count = 1'000'000;
+    constexpr int count = 4'000'000;
     for (uint64_t i = 0; i < count; ++i) {
       const auto [u, v] = test::even_point<2>(i);
       const SkyMap::Sample sample = map.sample({u, v});

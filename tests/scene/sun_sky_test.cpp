@@ -37,7 +37,7 @@ TEST(SunSky, daylight_is_as_bright_as_outdoors) {
   EXPECT_GT(lux, 60e3);
   EXPECT_LT(lux, 110e3);
   EXPECT_GT(sky->map().power() * 20000, 10e3);
-  EXPECT_LT(sky->map().power() * 20000, 100e3);
+  EXPECT_LT(sky->map().power() * 20000, 150e3);
 }
 
 TEST(SunSky, the_sky_is_blue_and_a_low_sun_red) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace tracer::test {
@@ -37,16 +38,19 @@ inline double chi_square_deviation(const std::vector<double>& counts,
 /// The point `index` of a sequence that fills the cube evenly: multiples of irrational numbers.
 template <size_t dimensions>
 std::array<double, dimensions> even_point(uint64_t index) {
-  static_assert(dimensions <= 5);
-  // Powers of the root of x^(d+1) = x + 1.
-  double root = 1.5;
-  for (int i = 0; i < 60; ++i) root = std::pow(1 + root, 1.0 / (dimensions + 1));
+  // One over the powers of the root of x^(d+1) = x + 1.
+  static const std::array<double, dimensions> steps = [] {
+    double root = 1.5;
+    for (int i = 0; i < 60; ++i) root = std::pow(1 + root, 1.0 / (dimensions + 1));
+    std::array<double, dimensions> powers;
+    double step = 1;
+    for (double& power : powers) power = step /= root;
+    return powers;
+  }();
   std::array<double, dimensions> point;
-  double step = 1;
-  for (double& value : point) {
-    step /= root;
-    const double place = 0.5 + static_cast<double>(index) * step;
-    value = place - std::floor(place);
+  for (size_t i = 0; i < dimensions; ++i) {
+    const double place = 0.5 + static_cast<double>(index) * steps[i];
+    point[i] = place - std::floor(place);
   }
   return point;
 }

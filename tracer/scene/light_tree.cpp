@@ -34,9 +34,10 @@ Angle4 difference(const Angle4& a, const Angle4& b) {
           is_larger ? splat(0) : a.sin * b.cos - a.cos * b.sin};
 }
 
-float sum_of(const std::array<float, 8>& weights) {
-  return ((weights[0] + weights[1]) + (weights[2] + weights[3])) +
-         ((weights[4] + weights[5]) + (weights[6] + weights[7]));
+double sum_of(const std::array<float, 8>& weights) {
+  double sum = 0;
+  for (const float weight : weights) sum += weight;
+  return sum;
 }
 
 }  // namespace
@@ -70,7 +71,7 @@ LightTree::Weights LightTree::weights_of(const Node& node, const LightReceiver& 
         quad.power * max_of(most_leaving, splat(0)) * max_of(most_arriving, splat(0)) / square;
     std::memcpy(&weights[4 * half], &weight, sizeof weight);
   }
-  const float sum = sum_of(weights);
+  const double sum = sum_of(weights);
   if (sum > 0 && sum <= std::numeric_limits<float>::max()) return weights;
   // Nothing reaches the receiver, or it is too far away to tell: by power alone.
   std::memcpy(&weights[0], &node.quads[0].power, sizeof(Float4));
@@ -106,7 +107,7 @@ double LightTree::probability(const LightReceiver& receiver, uint32_t light) con
   double probability = 1;
   for (Place at = places_[light];; at = nodes_[at.node].parent) {
     const Weights weights = weights_of(nodes_[at.node], place);
-    probability *= weights[at.child] / static_cast<double>(sum_of(weights));
+    probability *= weights[at.child] / sum_of(weights);
     if (at.node == 0) return probability;
   }
 }
