@@ -9,7 +9,6 @@
 #endif
 
 #include <algorithm>
-#include <bit>
 #include <cfloat>
 #include <cmath>
 #include <cstring>
@@ -69,16 +68,9 @@ HWY_INLINE float largest_component(const Vec3f& v) {
   return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
 }
 
-/// The least float that is not below `value`, which is not negative.
-HWY_INLINE float round_up(double value) {
-  const float rounded = static_cast<float>(value);
-  const auto is_below = static_cast<uint32_t>(static_cast<double>(rounded) < value);
-  return std::bit_cast<float>(std::bit_cast<uint32_t>(rounded) + is_below);
-}
-
-/// Where to stop in the filter for hits up to `t`: times 1 + 8u, and never before the start.
+/// Where to stop in the filter for hits up to `t`: at least t (1 + 8u), and never before the start.
 HWY_INLINE float stop_at(const RayConstants& c, double t) {
-  return round_up(std::max(t - c.t_offset, 0.0)) * (1 + 8 * u);
+  return static_cast<float>(std::max(t - c.t_offset, 0.0)) * (1 + 12 * u) + FLT_MIN;
 }
 
 /// Rays from far away start for the filter where they come to the scene: its bounds grow with the

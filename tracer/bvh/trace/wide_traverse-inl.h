@@ -196,6 +196,17 @@ struct ExactLeaf {
   }
 };
 
+/// What is asked of the hit, part by part: wider loads would wait for the stores of the parts.
+template <Query query>
+HWY_INLINE void keep(const Hit& hit, Hit& best) {
+  best.primitive = hit.primitive;
+  if constexpr (query == Query::closest_hit) {
+    best.t = hit.t;
+    best.u = hit.u;
+    best.v = hit.v;
+  }
+}
+
 template <Query query, Slabs slabs, class Leaf, class Probe>
 HWY_NOINLINE void traverse(const WideTree& tree, const Ray& ray, const RayConstants& constants,
                            const StopFlag& stop, Probe probe, Hit& best) {
@@ -234,11 +245,11 @@ HWY_NOINLINE void traverse(const WideTree& tree, const Ray& ray, const RayConsta
           const Hit hit = Leaf::hit(rows, hits, std::countr_zero(bits), ray);
           if (!hit.is_hit()) continue;
           if constexpr (query == Query::occluded) {
-            best = hit;
+            keep<query>(hit, best);
             return;
           }
           if (hit.is_closer_than(best)) {
-            best = hit;
+            keep<query>(hit, best);
             t_far = std::min(t_far, stop_at(constants, hit.t));
           }
         }
