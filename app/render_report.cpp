@@ -39,7 +39,9 @@ Json used_settings(const RenderOptions& options, const RenderReport& report) {
                    {"bvh", builder_name(options)},
                    {"layout", options.layout->name},
                    {"threads", options.thread_count}};
-  const auto add = [&](const auto& value, const auto& field) { settings[field.name] = value; };
+  const auto add = [&](const auto& value, const auto& field) {
+    settings[field.name] = option_value(value, field);
+  };
   for_each_field(options.build, add);
   for_each_field(options.render, add);
   return settings;

@@ -42,7 +42,7 @@ std::vector<std::string> replay_arguments(const std::filesystem::path& model,
       fmt::format("--integrator={}", integrator.name),
   };
   for_each_field(settings, [&](const auto& value, const auto& field) {
-    arguments.push_back(fmt::format("--{}={}", field.name, value));
+    arguments.push_back(fmt::format("--{}={}", field.name, option_value(value, field)));
   });
   return arguments;
 }
