@@ -14,6 +14,7 @@ struct RenderSettings {
   int bounces = 8;  // scatterings of a path at most
   SamplerKind sampler = SamplerKind::sobol;
   int seed = 0;
+  bool skips = true;    // what the scene does not need: the same picture, sooner
   double exposure = 0;  // stops: radiance is multiplied by 2^exposure before it is shown
 };
 
