@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tracer/geometry/mesh.h"
+#include "tracer/scene/light_tree.h"
 #include "tracer/scene/texture.h"
 
 namespace tracer {
@@ -28,11 +29,12 @@ struct Material {
 
 enum class Shading { flat, smooth };
 
-/// Triangles that emit, to be picked by power.
+/// Triangles that emit, to be picked by power; where they are many, by power and place.
 struct EmissiveTriangles {
   std::vector<uint32_t> triangles;
   std::vector<double> cumulative;     // of power / total power; the last is 1
-  std::vector<double> probabilities;  // of picking each
+  std::vector<double> probabilities;  // of picking each by power
+  LightTree tree;                     // over `triangles`; empty where they are few
   bool empty() const { return triangles.empty(); }
 };
 
