@@ -62,7 +62,7 @@ RayConstants with_own_origin(const RayConstants& moved, const Ray& ray) {
 }
 
 ArrivingRay arriving(const KernelBlock& block, const Ray& ray) {
-  ArrivingRay arrival{&ray, {}, 0, 0, {}, round_up(ray.t_max), false};
+  ArrivingRay arrival{&ray, {}, 0, 0, {}, static_cast<float>(ray.t_max), false};
   if (!prepare(block.tree, ray, arrival.constants)) return arrival;
   arrival.t_far = stop_at(arrival.constants, ray.t_max);
   arrival.unmoved = with_own_origin(arrival.constants, ray);

@@ -242,7 +242,7 @@ class Stream {
     for (uint32_t bits = slot.found.possible; bits != 0; bits &= bits - 1) {
       const Hit hit = Leaf::hit(rows, slot.found, std::countr_zero(bits), rays_[slot.ray]);
       if (!hit.is_hit() || !hit.is_closer_than(slot.best)) continue;
-      keep<query>(hit, slot.best);
+      slot.best = hit;
       is_closer = true;
       if constexpr (query == Query::occluded) return;
     }
