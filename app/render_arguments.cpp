@@ -22,6 +22,7 @@ constexpr const char* usage =
 constexpr const char* examples =
     "  boxwood render cow.obj -o cow.png\n"
     "  boxwood render cow.obj -o cow.exr --time 30 --size 1920x1080\n"
+    "  boxwood render cow.obj -o cow.png --error 1e-3 --allocation adaptive\n"
     "  boxwood render cow.obj -o cow.png --eye 3,2,4 --target 0,0.5,0 --fov 30\n"
     "  boxwood render cow.obj -o cow.pfm --bvh off --spp 1 --stats cow.json\n"
     "  boxwood render cow.obj --pixel 640,360 --sample 0";
@@ -65,6 +66,10 @@ void add_picture(CLI::App& app, RenderOptions& options) {
   CLI::Option* time = add_value(
       app, "--time", "SECONDS", "or as many as this time allows",
       [&](const std::string& text) { options.seconds = parse_number(text, 0.001, max_seconds); });
+  add_value(app, "--error", "E",
+            "or until its error is at most this: relMSE, the mean of (x - r)^2 / (r^2 + 0.01)",
+            [&](const std::string& text) { options.error = parse_number(text, 1e-9, 100); })
+      ->group("Picture");
   samples->group("Picture");
   time->group("Picture")->excludes(samples);
   add_value(

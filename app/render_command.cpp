@@ -140,6 +140,7 @@ class RenderJob {
     const RenderedPasses rendered = render_passes(world_, options_, film, stop_, progress_);
     report_.passes = rendered.passes;
     report_.whole_sample_count = rendered.whole_sample_count;
+    report_.error = rendered.error;
     report_.seconds.render = rendered.seconds;
     if (report_.passes.samples == 0) {
       bar_.reset();

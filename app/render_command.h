@@ -20,6 +20,7 @@ struct RenderOptions {
 
   std::optional<int> sample_count;  // a pixel
   std::optional<double> seconds;    // instead of a sample_count
+  std::optional<double> error;      // relMSE at which to stop, if neither of those comes before
   std::optional<tracer::Vec2i> size_px;
   const tracer::Integrator* integrator = &tracer::integrators().front();
   tracer::RenderSettings render;

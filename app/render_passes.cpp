@@ -1,22 +1,28 @@
 // SPDX-License-Identifier: MIT
 #include "app/render_passes.h"
 
+#include <algorithm>
 #include <atomic>
 
 #include "app/alarm.h"
 #include "app/stopwatch.h"
+#include "tracer/render/pass_schedule.h"
 
 namespace app {
 namespace {
 
-// Part of the whole job, from the samples or the time that is asked for.
+// Samples, where neither their number nor a time nor an error is asked for; nullopt: no limit.
+std::optional<int> sample_limit(const RenderOptions& options) {
+  if (options.sample_count || options.seconds || options.error) return options.sample_count;
+  return default_sample_count;
+}
+
+// Part of the whole job, from the samples, the time or the error that is asked for: whichever is
+// nearest.
 class RenderProgress {
  public:
   RenderProgress(const RenderOptions& options, tracer::Vec2i size_px, tracer::Progress& progress)
-      : options_(options),
-        sample_count_(options.sample_count.value_or(default_sample_count)),
-        tile_count_(tracer::make_tiles(size_px).size()),
-        progress_(progress) {
+      : options_(options), tile_count_(tracer::make_tiles(size_px).size()), progress_(progress) {
     progress_.start_stage("rendering");
   }
 
@@ -24,20 +30,27 @@ class RenderProgress {
     sample_ = pass.sample;
     finished_tiles_ = 0;
   }
+  void set_error(const tracer::FilmError& error) {
+    error_fraction_ = std::min(1.0, *options_.error / error.upper_bound());
+  }
   // From any worker thread.
   void finish_tile() {
     const double tiles = static_cast<double>(++finished_tiles_) / static_cast<double>(tile_count_);
-    progress_.set_fraction(options_.seconds ? stopwatch_.seconds() / *options_.seconds
-                                            : (sample_ + tiles) / sample_count_);
+    double fraction = error_fraction_;
+    if (const std::optional<int> limit = sample_limit(options_)) {
+      fraction = std::max(fraction, (sample_ + tiles) / *limit);
+    }
+    if (options_.seconds) fraction = std::max(fraction, stopwatch_.seconds() / *options_.seconds);
+    progress_.set_fraction(fraction);
   }
 
  private:
   const RenderOptions& options_;
-  int sample_count_;
   size_t tile_count_;
   tracer::Progress& progress_;
   Stopwatch stopwatch_;
   uint32_t sample_ = 0;
+  double error_fraction_ = 0;
   std::atomic<size_t> finished_tiles_ = 0;
 };
 
@@ -50,17 +63,22 @@ RenderedPasses render_passes(const tracer::World& world, const RenderOptions& op
   const Stopwatch stopwatch;
   Alarm deadline([&stop] { stop.request(); });
   if (options.seconds) deadline.set(*options.seconds);
-  const auto limit = static_cast<uint32_t>(options.sample_count.value_or(default_sample_count));
+  const std::optional<int> limit = sample_limit(options);
   RenderProgress shown(options, film.size_px(), progress);
-  for (tracer::Pass pass = tracer::first_pass; options.seconds || pass.sample < limit;
-       pass = next_pass(pass)) {
-    shown.start_pass(pass);
+  tracer::PassSchedule schedule(options.render);
+  while (!limit || schedule.pass().sample < static_cast<uint32_t>(*limit)) {
+    shown.start_pass(schedule.pass());
     const tracer::PassStats done =
-        render_pass(world, *options.integrator, options.render, pass, film, stop,
+        render_pass(world, *options.integrator, options.render, schedule.pass(), film, stop,
                     [&](const tracer::Tile&) { shown.finish_tile(); });
     result.passes.add(done);
     if (!done.is_complete) break;
-    if (pass.stride == 1) result.whole_sample_count = pass.sample + 1;
+    schedule.advance(film);
+    result.whole_sample_count = schedule.pass().sample;
+    if (!options.error || !schedule.is_estimate_due()) continue;
+    result.error = estimate_error(film);
+    if (result.error->upper_bound() <= *options.error) break;
+    shown.set_error(*result.error);
   }
   result.seconds = stopwatch.seconds();
   return result;

@@ -18,9 +18,23 @@ std::string builder_name(const RenderOptions& options) {
   return options.builder ? std::string(options.builder->name) : "off";
 }
 
+double mean_samples(const RenderReport& report) {
+  const tracer::Vec2d size_px(report.view.size_px);
+  return static_cast<double>(report.passes.samples) / (size_px.x * size_px.y);
+}
+
 double rays_per_second(const RenderReport& report) {
   const double seconds = report.seconds.render;
   return seconds > 0 ? static_cast<double>(report.passes.rays) / seconds : 0;
+}
+
+// Of all pixels, in words: "64 samples a pixel", "37.2 samples a pixel on average".
+std::string samples_in_words(const RenderOptions& options, const RenderReport& report) {
+  if (options.render.allocation == tracer::Allocation::adaptive) {
+    return fmt::format("{:.1f} samples a pixel on average", mean_samples(report));
+  }
+  return fmt::format("{} {} a pixel", report.whole_sample_count,
+                     report.whole_sample_count == 1 ? "sample" : "samples");
 }
 
 Json to_json(const tracer::Vec3d& v) {
@@ -68,11 +82,17 @@ Json stats(const RenderOptions& options, const tracer::ImportedScene& imported,
                 {"rays", report.passes.rays},
                 {"rays_per_second", rays_per_second(report)},
                 {"samples_per_pixel", report.whole_sample_count},
+                {"mean_samples_per_pixel", mean_samples(report)},
                 {"samples", report.passes.samples},
                 {"dropped_samples", report.passes.dropped},
                 {"dropped_faces", imported.dropped_faces},
                 {"warnings", imported.warnings.count()},
                 {"settings", used_settings(options, report)}});
+  if (report.error) {
+    stats["error"] = {{"asked_relmse", *options.error},
+                      {"relmse", report.error->relmse},
+                      {"upper_bound", report.error->upper_bound()}};
+  }
   return stats;
 }
 
@@ -93,9 +113,11 @@ std::map<std::string, std::string> picture_metadata(const RenderOptions& options
 }
 
 std::string summary(const RenderOptions& options, const RenderReport& report) {
-  return fmt::format("{}: {}x{}, {} {} a pixel, {:.1f} s, {:.2f} Mray/s", options.output->string(),
-                     report.view.size_px.x, report.view.size_px.y, report.whole_sample_count,
-                     report.whole_sample_count == 1 ? "sample" : "samples", report.seconds.render,
+  const std::string error =
+      report.error ? fmt::format(", relMSE {:.2e}", report.error->relmse) : std::string();
+  return fmt::format("{}: {}x{}, {}{}, {:.1f} s, {:.2f} Mray/s", options.output->string(),
+                     report.view.size_px.x, report.view.size_px.y,
+                     samples_in_words(options, report), error, report.seconds.render,
                      rays_per_second(report) * 1e-6);
 }
 

@@ -8,6 +8,7 @@
 #include "app/render_command.h"
 #include "app/render_view.h"
 #include "tracer/bvh/quality.h"
+#include "tracer/render/film_error.h"
 #include "tracer/render/render.h"
 #include "tracer/scene/import_obj.h"
 
@@ -22,11 +23,12 @@ struct StageSeconds {
 
 struct RenderReport {
   ResolvedView view;
-  tracer::TreeMetrics tree;          // node_count 0 without one; measured, as is the next,
-  tracer::TreeQuality tree_quality;  // where a stats file is asked for
-  size_t tree_bytes = 0;             // that rays are traced through
-  tracer::PassStats passes;          // of all passes together
-  uint32_t whole_sample_count = 0;   // samples that every pixel has
+  tracer::TreeMetrics tree;                // node_count 0 without one; measured, as is the next,
+  tracer::TreeQuality tree_quality;        // where a stats file is asked for
+  size_t tree_bytes = 0;                   // that rays are traced through
+  tracer::PassStats passes;                // of all passes together
+  uint32_t whole_sample_count = 0;         // samples that the pixels of rate 1 have
+  std::optional<tracer::FilmError> error;  // of the picture, where it was asked for
   StageSeconds seconds;
 };
 

@@ -11,6 +11,7 @@
 #include "tracer/render/directions-inl.h"
 #include "tracer/render/integrator.h"
 #include "tracer/render/light_sampling.h"
+#include "tracer/render/sampler_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tracer {
@@ -65,6 +66,7 @@ class DiffusePaths {
         caster_(caster),
         settings_(settings),
         block_(block),
+        samplers_(block.samplers),
         lights_(world, settings),
         sky_(lights_.sky().radiance(Vec3d(0, 0, 1))) {}
 
@@ -146,17 +148,15 @@ class DiffusePaths {
   }
 
   void add_light() {
+    samplers_.next(samples_.data(), count_, &u_[0]);
     for (size_t i = 0; i < count_; ++i) {
-      Sampler& sampler = block_.samplers[samples_[i]];
       const LightReceiver receiver{origin_.get<Vec3f>(i), Vec3f(normal_.get<Vec3d>(i))};
-      const Lights::Pick pick = lights_.pick(receiver, sampler.next());
+      const Lights::Pick pick = lights_.pick(receiver, u_[i]);
       light_[i] = pick.triangle;
       light_probability_[i] = pick.probability;
       triangle_.set(i, mesh_, pick.triangle);
-      const Vec2d u = sampler.next_2d();
-      u_[i] = u.x;
-      v_[i] = u.y;
     }
+    samplers_.next_2d(samples_.data(), count_, &u_[0], &v_[0]);
     for (size_t i = 0; i < count_; i += step()) {
       const Vector3<Lanes> normal = normal_.at(i);
       const FlatSurface<Lanes> surface{position_.at(i), normal, Lanes(0)};
@@ -190,11 +190,7 @@ class DiffusePaths {
 
   void scatter(int scatterings) {
     constexpr int first_roulette = 4;
-    for (size_t i = 0; i < count_; ++i) {
-      const Vec2d u = block_.samplers[samples_[i]].next_2d();
-      u_[i] = u.x;
-      v_[i] = u.y;
-    }
+    samplers_.next_2d(samples_.data(), count_, &u_[0], &v_[0]);
     for (size_t i = 0; i < count_; i += step()) {
       const Vector3<Lanes> normal = normal_.at(i);
       const Vector3<Lanes> direction = cosine_hemisphere(normal, u_.at(i), v_.at(i));
@@ -207,14 +203,16 @@ class DiffusePaths {
       throughput_.put(i,
                       {throughput.x * albedo.x, throughput.y * albedo.y, throughput.z * albedo.z});
     }
+    const bool is_roulette = scatterings + 1 >= first_roulette;
+    if (is_roulette) samplers_.next(samples_.data(), count_, &u_[0]);
     size_t kept = 0;
     for (size_t i = 0; i < count_; ++i) {
       if (!(above_[i] > 0)) continue;
       const uint32_t sample = samples_[i];
       Vec3d throughput = throughput_.get<Vec3d>(i);
-      if (scatterings + 1 >= first_roulette) {
+      if (is_roulette) {
         const double survival = std::min(1.0, std::max({throughput.x, throughput.y, throughput.z}));
-        if (block_.samplers[sample].next() >= survival) continue;
+        if (u_[i] >= survival) continue;
         throughput /= survival;
       }
       rays_[kept] = {.origin = origin_.get<Vec3f>(i), .direction = direction_.get<Vec3f>(i)};
@@ -232,6 +230,7 @@ class DiffusePaths {
   RayCaster& caster_;
   const RenderSettings& settings_;
   const SampleBlock& block_;
+  SamplerLanes samplers_;
   const Lights lights_;
   const Vec3d sky_;
 

@@ -2,6 +2,7 @@
 #include "tracer/render/film.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "tracer/base/parallel.h"
 
@@ -25,7 +26,9 @@ std::vector<Tile> make_tiles(Vec2i size_px, int side_px) {
 }
 
 Film::Film(Vec2i size_px)
-    : size_px_(size_px), pixels_(static_cast<size_t>(size_px.x) * size_px.y) {}
+    : size_px_(size_px),
+      pixels_(static_cast<size_t>(size_px.x) * size_px.y),
+      prefixes_(pixels_.size()) {}
 
 Vec3f Film::mean(int x, int y) const {
   for (const int stride : {1, 2, 4, 8}) {
@@ -45,8 +48,25 @@ Image Film::image() const {
   return image;
 }
 
+SampleHalves Film::halves(int x, int y) const {
+  const Pixel& pixel = pixels_[index(x, y)];
+  if (pixel.count < 2) return {};
+  const Prefixes& prefixes = prefixes_[index(x, y)];
+  const uint32_t longer = std::bit_floor(pixel.count - 1);
+  // One sample behind sixteen says nothing.
+  const bool is_longer_used = pixel.count >= longer + longer / 4;
+  const uint32_t first_count = is_longer_used ? longer : longer / 2;
+  const Vec3d first(is_longer_used ? prefixes.longer : prefixes.shorter);
+  const uint32_t rest_count = pixel.count - first_count;
+  return {first,
+          (pixel.sum - static_cast<double>(first_count) * first) / static_cast<double>(rest_count),
+          first_count, rest_count};
+}
+
 void Film::clear() {
   std::fill(pixels_.begin(), pixels_.end(), Pixel{});
+  std::fill(prefixes_.begin(), prefixes_.end(), Prefixes{});
+  rates_ = {};
 }
 
 }  // namespace tracer

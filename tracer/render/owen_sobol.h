@@ -10,23 +10,12 @@
 
 namespace tracer {
 
-constexpr uint32_t reverse_bits(uint32_t word) {
-  word = __builtin_bswap32(word);
-  word = (word & 0x0f0f0f0fu) << 4 | (word >> 4 & 0x0f0f0f0fu);
-  word = (word & 0x33333333u) << 2 | (word >> 2 & 0x33333333u);
-  return (word & 0x55555555u) << 1 | (word >> 1 & 0x55555555u);
-}
+/// Of one dimension, in a square of pixels.
+struct SobolSeeds {
+  uint32_t index, place, x, y;
+};
 
-/// Flips each bit or not, by chance that depends on `seed` and the lower bits: Owen's nested
-/// scrambling where the lowest bit is the most significant. [Laine 2011] [Vegdahl 2021]
-constexpr uint32_t scramble_upwards(uint32_t word, uint32_t seed) {
-  word ^= word * 0x3d20adeau;
-  word += seed;
-  word *= seed >> 16 | 1;
-  word ^= word * 0x05526c56u;
-  word ^= word * 0x53a22864u;
-  return word;
-}
+#include "tracer/render/owen_sobol_words-inl.h"
 
 /// Well-mixed 64 bits from 64, one to one [Steele 2014].
 constexpr uint64_t mix_bits(uint64_t bits) {
@@ -36,34 +25,28 @@ constexpr uint64_t mix_bits(uint64_t bits) {
 }
 
 /// Two numbers of 32 binary digits, the first digit in the lowest bit.
-struct DigitPair {
-  uint32_t x, y;
-};
-
-/// Sobol's point of an index in the first two dimensions. With the index as a polynomial p(t) over
-/// the field of two elements, y is p(1 + t). [Sobol 1967]
-constexpr DigitPair sobol_digits(uint32_t index) {
-  uint32_t y = index;
-  y ^= (y & 0xffff0000u) >> 16;
-  y ^= (y & 0xff00ff00u) >> 8;
-  y ^= (y & 0xf0f0f0f0u) >> 4;
-  y ^= (y & 0xccccccccu) >> 2;
-  y ^= (y & 0xaaaaaaaau) >> 1;
-  return {index, y};
-}
+using DigitPair = WordPair<uint32_t>;
 
 /// Pixels share one scrambled sequence in squares of 16 x 16.
 inline constexpr int pixel_block_levels = 4;
 inline constexpr uint32_t pixel_block_side = 1u << pixel_block_levels;
 inline constexpr uint32_t pixel_block_size = pixel_block_side * pixel_block_side;
 
-/// The Morton code of a pixel's place in its block, the most significant bit lowest.
-constexpr uint32_t place_in_pixel_block(uint32_t x, uint32_t y) {
-  uint32_t place = 0;
-  for (uint32_t bit = 0; bit < pixel_block_levels; ++bit) {
-    place = place << 2 | (x >> bit & 1) << 1 | (y >> bit & 1);
+/// The Morton codes of pixels' places in their square, the most significant bit lowest.
+constexpr std::array<uint8_t, pixel_block_size> make_places() {
+  std::array<uint8_t, pixel_block_size> places{};
+  for (uint32_t i = 0; i < pixel_block_size; ++i) {
+    for (uint32_t bit = 0; bit < pixel_block_levels; ++bit) {
+      const uint32_t x = i >> bit & 1, y = i >> (bit + pixel_block_levels) & 1;
+      places[i] = static_cast<uint8_t>(places[i] << 2 | x << 1 | y);
+    }
   }
-  return place;
+  return places;
+}
+inline constexpr std::array<uint8_t, pixel_block_size> pixel_places = make_places();
+
+constexpr uint32_t place_in_pixel_block(uint32_t x, uint32_t y) {
+  return pixel_places[y % pixel_block_side * pixel_block_side + x % pixel_block_side];
 }
 
 /// The power series of series / (1 + t + t^2).
@@ -98,16 +81,57 @@ constexpr std::array<DigitPair, pixel_block_size> make_pixel_shifts() {
 }
 inline constexpr std::array<DigitPair, pixel_block_size> pixel_shifts = make_pixel_shifts();
 
-/// A place in an order of [0, mask], mask + 1 a power of two, that `key` picks.
-constexpr uint32_t shuffle(uint32_t i, uint32_t mask, uint32_t key) {
-  const int half = (std::bit_width(mask) + 1) / 2;
-  for (int round = 0; round < 3; ++round) {
-    key = key * 0x915f77f5u + 0x2c1b3c6du;
-    i = (i ^ key >> 16) * (key >> 3 | 1) & mask;
-    i ^= i >> half;
+/// What the samples of one index have in common in a square of pixels.
+class OwenSobolSquare {
+ public:
+  OwenSobolSquare() = default;
+  OwenSobolSquare(uint32_t pixel_x, uint32_t pixel_y, uint32_t sample, uint32_t seed)
+      : square_(mix_bits(mix_bits(seed + 0x9e3779b97f4a7c15u) ^
+                         (static_cast<uint64_t>(pixel_y / pixel_block_side) << 32 |
+                          pixel_x / pixel_block_side))),
+        sample_(sample),
+        below_leading_bit_(std::max(1u, std::bit_floor(sample)) - 1),
+        within_quarter_(below_leading_bit_ >> 2),
+        octave_(std::bit_width(below_leading_bit_)),
+        quarter_bit_(static_cast<uint32_t>(std::bit_width(within_quarter_))),
+        quarter_(sample >> quarter_bit_ & below_leading_bit_ >> quarter_bit_) {}
+
+  friend bool operator==(const OwenSobolSquare& a, const OwenSobolSquare& b) {
+    return a.square_ == b.square_ && a.sample_ == b.sample_;
   }
-  return i;
-}
+
+  /// Of the order in which the pixel at a place of the square takes its samples.
+  uint32_t order(uint32_t place) const {
+    const uint64_t quarter = sample_ & ~within_quarter_;
+    return static_cast<uint32_t>(mix_bits(square_ + (quarter << 8 | place)));
+  }
+  SobolSeeds seeds(uint32_t dimension) const {
+    const uint64_t first = mix_bits(square_ + dimension * 0x9e3779b97f4a7c15u);
+    const uint64_t second = first * 0xd1342543de82ef95u;
+    return {static_cast<uint32_t>(second >> 32), static_cast<uint32_t>(second >> 8),
+            static_cast<uint32_t>(first >> 32), static_cast<uint32_t>(first)};
+  }
+  /// The sample's index in a dimension, before the bits within the mask change places. The samples
+  /// [2^k, 2^(k+1)) do, so that prefixes stay nets: quarters of them with each other, nested, and
+  /// within a quarter all of them, each pixel's in its own way.
+  uint32_t index(const SobolSeeds& seeds) const {
+    // Other random bits for each octave.
+    const uint32_t random = std::rotr(seeds.index, 3 * octave_);
+    const uint32_t flips = (random & 2) | (random >> (quarter_ & 2) & 1);
+    const uint32_t quarter = ((quarter_ ^ flips) << quarter_bit_) & below_leading_bit_;
+    return (sample_ & ~below_leading_bit_) | quarter | (sample_ & within_quarter_);
+  }
+  uint32_t mask() const { return within_quarter_; }
+
+ private:
+  uint64_t square_ = 0;
+  uint32_t sample_ = 0;
+  uint32_t below_leading_bit_ = 0;  // masks of the sample's bits
+  uint32_t within_quarter_ = 0;
+  int octave_ = 0;
+  uint32_t quarter_bit_ = 0;  // the lowest of the two that say which quarter
+  uint32_t quarter_ = 0;
+};
 
 /// The points of one sample of one pixel: in each dimension Sobol's first two, in an order and with
 /// a scrambling of their own, which the pixels of a block share. [Burley 2020] [Ahmed 2020]
@@ -115,68 +139,27 @@ class OwenSobolSample {
  public:
   OwenSobolSample() = default;
   OwenSobolSample(uint32_t pixel_x, uint32_t pixel_y, uint32_t sample, uint32_t seed)
-      : block_(mix_bits(mix_bits(seed + 0x9e3779b97f4a7c15u) ^
-                        (static_cast<uint64_t>(pixel_y / pixel_block_side) << 32 |
-                         pixel_x / pixel_block_side))),
-        sample_(sample),
-        below_leading_bit_(std::max(1u, std::bit_floor(sample)) - 1),
-        within_quarter_(below_leading_bit_ >> 2),
-        octave_(std::bit_width(below_leading_bit_)),
-        quarter_bit_(static_cast<uint32_t>(std::bit_width(within_quarter_))),
-        quarter_(sample >> quarter_bit_ & below_leading_bit_ >> quarter_bit_),
-        place_(place_in_pixel_block(pixel_x % pixel_block_side, pixel_y % pixel_block_side)) {
-    const uint64_t quarter = sample & ~within_quarter_;
-    order_ = static_cast<uint32_t>(mix_bits(block_ + (quarter << 8 | place_)));
-  }
+      : OwenSobolSample(OwenSobolSquare(pixel_x, pixel_y, sample, seed), pixel_x, pixel_y) {}
+  /// Of a pixel in the square.
+  OwenSobolSample(const OwenSobolSquare& square, uint32_t pixel_x, uint32_t pixel_y)
+      : square_(square),
+        place_(place_in_pixel_block(pixel_x, pixel_y)),
+        order_(square_.order(place_)) {}
+
+  const OwenSobolSquare& square() const { return square_; }
+  uint32_t place() const { return place_; }
+  uint32_t order() const { return order_; }
 
   /// 32 bits, the first digit in the highest.
-  uint32_t number(uint32_t dimension) const {
-    const Seeds seeds = seeds_of(dimension);
-    return reverse_bits(scramble_upwards(index(seeds) ^ shift(seeds).x, seeds.x));
-  }
+  uint32_t number(uint32_t dimension) const { return pair(dimension).x; }
   DigitPair pair(uint32_t dimension) const {
-    const Seeds seeds = seeds_of(dimension);
-    const DigitPair point = sobol_digits(index(seeds));
-    const DigitPair by = shift(seeds);
-    return {reverse_bits(scramble_upwards(point.x ^ by.x, seeds.x)),
-            reverse_bits(scramble_upwards(point.y ^ by.y, seeds.y))};
+    const SobolSeeds seeds = square_.seeds(dimension);
+    const DigitPair& shift = pixel_shifts[scramble_upwards(place_, seeds.place) % pixel_block_size];
+    return scrambled_point(square_.index(seeds), square_.mask(), order_, shift, seeds);
   }
 
  private:
-  struct Seeds {
-    uint32_t index, place, x, y;
-  };
-
-  Seeds seeds_of(uint32_t dimension) const {
-    const uint64_t first = mix_bits(block_ + dimension * 0x9e3779b97f4a7c15u);
-    const uint64_t second = first * 0xd1342543de82ef95u;
-    return {static_cast<uint32_t>(second >> 32), static_cast<uint32_t>(second >> 8),
-            static_cast<uint32_t>(first >> 32), static_cast<uint32_t>(first)};
-  }
-
-  // The samples [2^k, 2^(k+1)) change places, so that prefixes stay nets: quarters of them with
-  // each other, nested, and within a quarter all of them, each pixel's in its own way.
-  uint32_t index(const Seeds& seeds) const {
-    // Other random bits for each octave.
-    const uint32_t random = std::rotr(seeds.index, 3 * octave_);
-    const uint32_t flips = (random & 2) | (random >> (quarter_ & 2) & 1);
-    const uint32_t quarter = ((quarter_ ^ flips) << quarter_bit_) & below_leading_bit_;
-    const uint32_t within =
-        shuffle(sample_ & within_quarter_, within_quarter_, (order_ ^ seeds.index) * 0x85ebca6bu);
-    return (sample_ & ~below_leading_bit_) | quarter | within;
-  }
-
-  const DigitPair& shift(const Seeds& seeds) const {
-    return pixel_shifts[scramble_upwards(place_, seeds.place) % pixel_block_size];
-  }
-
-  uint64_t block_ = 0;
-  uint32_t sample_ = 0;
-  uint32_t below_leading_bit_ = 0;  // masks of the sample's bits
-  uint32_t within_quarter_ = 0;
-  int octave_ = 0;
-  uint32_t quarter_bit_ = 0;  // the lowest of the two that say which quarter
-  uint32_t quarter_ = 0;
+  OwenSobolSquare square_;
   uint32_t place_ = 0;
   uint32_t order_ = 0;
 };

@@ -3,29 +3,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "tracer/base/parallel.h"
+#include "tracer/render/camera_rays.h"
 
 namespace tracer {
 namespace {
-
-struct PixelSample {
-  Ray ray;
-  Sampler sampler;
-};
-
-/// Pixels are box filters: the ray goes through a point uniform in the pixel.
-PixelSample start_sample(const World& world, const RenderSettings& settings, Vec2i pixel,
-                         uint32_t sample) {
-  Sampler sampler(settings.sampler, pixel, sample, static_cast<uint32_t>(settings.seed));
-  const Vec2d image_point = Vec2d(pixel) + sampler.next_2d();
-  return {camera_ray(world.camera, image_point), sampler};
-}
 
 int first_multiple_from(int value, int stride) {
   return (value + stride - 1) / stride * stride;
@@ -51,7 +38,7 @@ Vec2i place_in_block(int i) {
 
 constexpr int block_side = 8;
 
-/// The pixels of a square that lack the pass's sample, and what is found for them.
+/// Pixels that are due for a sample, and what is found for them.
 struct PixelBlock {
   static constexpr size_t capacity = block_side * block_side;
   static_assert(capacity <= SampleBlock::max_size);
@@ -69,7 +56,10 @@ struct PixelBlock {
 class TileRenderer {
  public:
   TileRenderer(const PassContext& context, const Tile& tile)
-      : context_(context), tile_(tile), rays_(*context.world.accel, context.stop) {}
+      : context_(context),
+        tile_(tile),
+        rays_(*context.world.accel, context.stop),
+        samplers_(context.settings.sampler, static_cast<uint32_t>(context.settings.seed)) {}
 
   PassStats run() {
     stats_.is_complete = render_blocks();
@@ -78,43 +68,48 @@ class TileRenderer {
   }
 
  private:
-  // False when stopped, as below.
+  // False when stopped, as are those below.
   bool render_blocks() {
     const int stride = context_.pass.stride;
     for (int y = first_multiple_from(tile_.y0, stride); y < tile_.y1; y += block_side * stride) {
       for (int x = first_multiple_from(tile_.x0, stride); x < tile_.x1; x += block_side * stride) {
-        gather({x, y});
-        if (block_.count > 0 && !render_block()) return false;
+        if (!gather({x, y})) return false;
       }
+    }
+    return render_block();
+  }
+
+  // The pixels of a square that are due, into blocks that are rendered when they are full.
+  bool gather(Vec2i first) {
+    const int stride = context_.pass.stride;
+    const Vec2d end(first + block_side * stride);
+    const bool can_meet =
+        !context_.settings.skips || tracer::can_meet(context_.world.camera, Vec2d(first), end,
+                                                     context_.world.scene->mesh->bounds);
+    if (can_meet != block_.can_meet && !render_block()) return false;
+    block_.can_meet = can_meet;
+    for (int i = 0; i < block_side * block_side; ++i) {
+      const Vec2i pixel = first + stride * place_in_block(i);
+      if (pixel.x >= tile_.x1 || pixel.y >= tile_.y1) continue;
+      if (!context_.film.is_due(pixel.x, pixel.y, context_.pass.sample + 1)) continue;
+      const uint32_t sample = context_.film.sample_count(pixel.x, pixel.y);
+      block_.pixels[block_.count] = pixel;
+      block_.samplers[block_.count] = samplers_.sampler(pixel, sample);
+      if (++block_.count == PixelBlock::capacity && !render_block()) return false;
     }
     return true;
   }
 
-  void gather(Vec2i first) {
-    const Pass& pass = context_.pass;
-    const Vec2d end(first + block_side * pass.stride);
-    block_.can_meet = !context_.settings.skips || can_meet(context_.world.camera, Vec2d(first), end,
-                                                           context_.world.scene->mesh->bounds);
-    block_.count = 0;
-    for (int i = 0; i < block_side * block_side; ++i) {
-      const Vec2i pixel = first + pass.stride * place_in_block(i);
-      if (pixel.x >= tile_.x1 || pixel.y >= tile_.y1) continue;
-      if (context_.film.sample_count(pixel.x, pixel.y) > pass.sample) continue;
-      assert(context_.film.sample_count(pixel.x, pixel.y) == pass.sample);
-      const PixelSample start = start_sample(context_.world, context_.settings, pixel, pass.sample);
-      block_.pixels[block_.count] = pixel;
-      block_.rays[block_.count] = start.ray;
-      block_.samplers[block_.count] = start.sampler;
-      ++block_.count;
-    }
-  }
-
   bool render_block() {
+    if (block_.count == 0) return true;
+    camera_rays(context_.world.camera, {block_.pixels.data(), block_.count},
+                {block_.samplers.data(), block_.count}, {block_.rays.data(), block_.count});
     // Where a ray may take milliseconds, a stop loses but one sample.
     const size_t together = context_.world.accel->wide ? PixelBlock::capacity : 1;
     for (size_t first = 0; first < block_.count; first += together) {
       if (!render_samples(first, std::min(together, block_.count - first))) return false;
     }
+    block_.count = 0;
     return true;
   }
 
@@ -142,7 +137,8 @@ class TileRenderer {
     const bool is_usable = is_finite(radiance);
     ++stats_.samples;
     if (!is_usable) {
-      stats_.add({.dropped = 1, .first_dropped = SampleId{pixel, context_.pass.sample}});
+      const uint32_t sample = context_.film.sample_count(pixel.x, pixel.y);
+      stats_.add({.dropped = 1, .first_dropped = SampleId{pixel, sample}});
     }
     context_.film.add(pixel.x, pixel.y, is_usable ? radiance : Vec3d(0));
   }
@@ -150,6 +146,7 @@ class TileRenderer {
   const PassContext& context_;
   const Tile& tile_;
   RayCaster rays_;
+  SamplerSource samplers_;
   PassStats stats_;
   PixelBlock block_;
 };
@@ -158,7 +155,9 @@ class TileRenderer {
 template <class Answer>
 Vec3d answer_sample(const World& world, const RenderSettings& settings, Vec2i pixel,
                     uint32_t sample, RayCaster& rays, const Answer& answer) {
-  auto [ray, sampler] = start_sample(world, settings, pixel, sample);
+  Sampler sampler(settings.sampler, pixel, sample, static_cast<uint32_t>(settings.seed));
+  Ray ray;
+  camera_rays(world.camera, {&pixel, 1}, {&sampler, 1}, {&ray, 1});
   const Hit hit = rays.closest_hit(ray);
   Vec3d radiance(0);
   answer(SampleBlock{.camera_rays = {&ray, 1},

@@ -13,8 +13,9 @@
 
 namespace tracer {
 
-/// One sample of every pixel on a grid. The first sample is traced coarse to fine, stride 8, 4, 2,
-/// 1, and each pixel but once: a pass passes over pixels that have the sample already.
+/// The next sample of every pixel on a grid that lacks it when the film's pixels of rate 1 are to
+/// have `sample` + 1 of them. The first sample is traced coarse to fine, stride 8, 4, 2, 1, and
+/// each pixel but once: a pass passes over pixels that have the sample already.
 struct Pass {
   uint32_t sample = 0;
   int stride = 1;
