@@ -11,6 +11,7 @@
 #include "app/info_trees.h"
 #include "app/print_warnings.h"
 #include "tracer/scene/import_obj.h"
+#include "tracer/scene/profile.h"
 
 namespace app {
 namespace {
@@ -42,6 +43,14 @@ Json describe_materials(const tracer::Scene& scene) {
   return materials;
 }
 
+Json describe_skips(const tracer::Scene& scene) {
+  Json skips = Json::array();
+  for (const auto& [what, why] : tracer::skipped_work(tracer::make_profile(scene))) {
+    skips.push_back({{"what", what}, {"why", why}});
+  }
+  return skips;
+}
+
 // All there is to say, once: the table is made from it too.
 Json describe(const std::filesystem::path& path, const tracer::ImportedScene& imported) {
   const tracer::Mesh& mesh = *imported.scene.mesh;
@@ -65,6 +74,7 @@ Json describe(const std::filesystem::path& path, const tracer::ImportedScene& im
       {"bounds", {{"min", to_json(imported.bounds.min)}, {"max", to_json(imported.bounds.max)}}},
       {"origin", to_json(mesh.origin)},
       {"materials", describe_materials(imported.scene)},
+      {"skipped", describe_skips(imported.scene)},
       {"dropped_faces", imported.dropped_faces},
       {"warnings", {{"count", imported.warnings.count()}, {"messages", messages}}}};
 }
@@ -93,6 +103,15 @@ void print_materials(const Json& materials) {
   }
 }
 
+void print_skips(const Json& skips) {
+  const char* label = "skipped";
+  for (const Json& skip : skips) {
+    print_row(label, fmt::format("{}: {}", skip["what"].get<std::string>(),
+                                 skip["why"].get<std::string>()));
+    label = "";
+  }
+}
+
 void print_table(const Json& info) {
   fmt::print("{}\n", info["file"].get<std::string>());
   for (const char* key : {"bytes", "triangles", "vertices", "faces", "objects", "groups"}) {
@@ -107,6 +126,7 @@ void print_table(const Json& info) {
   print_row("to", numbers(info["bounds"]["max"]));
   print_row("origin", numbers(info["origin"]));
   print_materials(info["materials"]);
+  print_skips(info["skipped"]);
   print_row("faces left out", info["dropped_faces"].dump());
   print_row("warnings", info["warnings"]["count"].dump());
   print_trees(info["trees"]);

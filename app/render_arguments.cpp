@@ -79,6 +79,10 @@ void add_picture(CLI::App& app, RenderOptions& options) {
             })
       ->group("Picture");
   add_fields(app, "Picture", options.render);
+  app.add_flag_callback(
+         "--no-skip", [&] { options.render.skips = false; },
+         "do what the scene does not need too: the same picture, later")
+      ->group("Picture");
 }
 
 void add_camera(CLI::App& app, RenderOptions& options) {

@@ -38,6 +38,7 @@ Json used_settings(const RenderOptions& options, const RenderReport& report) {
                    {"integrator", options.integrator->name},
                    {"bvh", builder_name(options)},
                    {"layout", options.layout->name},
+                   {"skips", options.render.skips},
                    {"threads", options.thread_count}};
   const auto add = [&](const auto& value, const auto& field) { settings[field.name] = value; };
   for_each_field(options.build, add);

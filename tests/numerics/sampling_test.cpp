@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/numerics/stress.h"
+#include "tracer/base/trigonometry.h"
 #include "tracer/render/sampler.h"
 
 namespace tracer::stress {

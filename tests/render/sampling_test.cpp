@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tracer/base/directions.h"
 #include "tracer/render/sampler.h"
 
 namespace tracer {

@@ -194,5 +194,43 @@ TEST(DefaultCamera, what_stands_in_y_is_seen_from_the_front_right_and_above) {
   EXPECT_GT(towards_eye.y, 0.2);
 }
 
+TEST(Camera, never_says_that_a_block_of_pixels_cannot_meet_what_one_of_its_rays_meets) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto point = [&] { return Vec3d(uniform(random), uniform(random), uniform(random)); };
+  int empty_count = 0, met_count = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double size = std::exp2(4 * uniform(random) - 3);
+    const Vec3d near_target = point();
+    const Box box = box_of(Vec3f(near_target), Vec3f(near_target + size * point()));
+    const CameraFrame frame = make_camera_frame({.eye = 3.0 * point(),
+                                                 .target = near_target + 0.3 * point(),
+                                                 .fov_degrees = 60 + 59 * uniform(random)},
+                                                {64, 48}, Vec3d(0));
+    const Vec2d first(8 * std::floor(4 + 4 * uniform(random)),
+                      8 * std::floor(3 + 3 * uniform(random)));
+    const bool can = can_meet(frame, first, first + Vec2d(8), box);
+    empty_count += !can;
+    for (int k = 0; k < 20; ++k) {
+      const Ray ray =
+          camera_ray(frame, first + 4.0 * Vec2d(1 + uniform(random), 1 + uniform(random)));
+      double t_min = 0, t_max = std::numeric_limits<double>::infinity();
+      for (int axis = 0; axis < 3; ++axis) {
+        const double a =
+            (static_cast<double>(box.min[axis]) - ray.origin[axis]) / ray.direction[axis];
+        const double b =
+            (static_cast<double>(box.max[axis]) - ray.origin[axis]) / ray.direction[axis];
+        t_min = std::max(t_min, std::min(a, b));
+        t_max = std::min(t_max, std::max(a, b));
+      }
+      if (t_min > t_max) continue;
+      ++met_count;
+      ASSERT_TRUE(can) << i;
+    }
+  }
+  EXPECT_GT(empty_count, 10000);
+  EXPECT_GT(met_count, 5000);
+}
+
 }  // namespace
 }  // namespace tracer

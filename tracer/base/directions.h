@@ -9,6 +9,8 @@ namespace tracer {
 
 /// v at unit length, or `fallback` where v is zero or not finite. Neither overflows nor underflows.
 inline Vec3d unit_or(const Vec3d& v, const Vec3d& fallback) {
+  const double square = glm::dot(v, v);
+  if (square > 0x1p-900 && square < 0x1p900) return v * (1 / std::sqrt(square));
   const double scale = max_abs(v);
   if (!(scale > 0) || !is_finite(v)) return fallback;
   return glm::normalize(v / scale);

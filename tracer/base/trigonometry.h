@@ -13,30 +13,7 @@ struct CosSin {
 };
 
 /// Cosine and sine of 2 pi `turns`, |turns| < 2^50, each within 1e-15. Exact at whole quarters.
-inline CosSin cos_sin_of_turns(double turns) {
-  const double quarters = std::floor(4 * turns + 0.5);
-  // In [-pi/4, pi/4]; the subtraction is exact.
-  const double angle = (turns - 0.25 * quarters) * (2 * std::numbers::pi);
-  const double square = angle * angle;
-  double sin_series = 1;
-  double cos_series = 1;
-  for (int power = 18; power >= 2; power -= 2) {
-    sin_series = 1 - square / (power * (power + 1.0)) * sin_series;
-    cos_series = 1 - square / (power * (power - 1.0)) * cos_series;
-  }
-  const double sin = angle * sin_series;
-  const double cos = cos_series;
-  switch (static_cast<int>(quarters - 4 * std::floor(0.25 * quarters))) {
-    case 0:
-      return {cos, sin};
-    case 1:
-      return {-sin, cos};
-    case 2:
-      return {-cos, -sin};
-    default:
-      return {sin, -cos};
-  }
-}
+CosSin cos_sin_of_turns(double turns);
 
 /// Tangent of half of an angle in degrees, 0 <= angle < 180.
 inline double tan_half_degrees(double degrees) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "tracer/base/directions.h"
 #include "tracer/render/sampling.h"
 
 namespace tracer {
@@ -11,11 +12,6 @@ namespace {
 /// From area to solid angle: distance^2 / (cosine * area).
 double solid_angle_pdf(double area, double distance, double cosine) {
   return cosine > 0 && area > 0 ? distance * distance / (cosine * area) : 0;
-}
-
-size_t pick_light(const EmissiveTriangles& lights, double u) {
-  const auto light = std::upper_bound(lights.cumulative.begin(), lights.cumulative.end(), u);
-  return std::min<size_t>(light - lights.cumulative.begin(), lights.triangles.size() - 1);
 }
 
 /// The ray from the surface to `point` on a light whose unit normal towards the surface is given.
@@ -31,9 +27,14 @@ Ray make_shadow_ray(const Surface& surface, const Vec3d& point, const Vec3d& lig
 
 }  // namespace
 
+LightPick pick_light(const EmissiveTriangles& lights, double u) {
+  const auto light = std::upper_bound(lights.cumulative.begin(), lights.cumulative.end(), u);
+  const auto i = std::min<size_t>(light - lights.cumulative.begin(), lights.triangles.size() - 1);
+  return {lights.triangles[i], lights.probabilities[i]};
+}
+
 LightSample sample_light(const Scene& scene, const Surface& surface, Sampler& sampler) {
-  const size_t light = pick_light(*scene.lights, sampler.next());
-  const uint32_t index = scene.lights->triangles[light];
+  const auto [index, probability] = pick_light(*scene.lights, sampler.next());
   const Triangle triangle = triangle_at(*scene.mesh, index);
   const Vec2d weights = sample_triangle(sampler.next_2d());
   const Vec3d point = triangle.at(weights.x, weights.y);
@@ -46,7 +47,7 @@ LightSample sample_light(const Scene& scene, const Surface& surface, Sampler& sa
   Vec3d normal = unit_or(triangle.area_normal(), -sample.direction);
   if (glm::dot(normal, sample.direction) > 0) normal = -normal;
   sample.pdf =
-      scene.lights->probabilities[light] *
+      probability *
       solid_angle_pdf(triangle.area(), glm::length(to_light), -glm::dot(normal, sample.direction));
   sample.shadow_ray = make_shadow_ray(surface, point, normal, clearance_of(triangle, normal));
   return sample;

@@ -15,6 +15,13 @@ struct LightSample {
   uint32_t triangle = 0;  // that emits
 };
 
+/// A light picked by power.
+struct LightPick {
+  uint32_t triangle;
+  double probability;
+};
+LightPick pick_light(const EmissiveTriangles& lights, double u);
+
 /// Picks a triangle by power and a point on it by area. scene.lights is not empty.
 LightSample sample_light(const Scene& scene, const Surface& surface, Sampler& sampler);
 

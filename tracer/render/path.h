@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 
+#include "tracer/render/diffuse_paths.h"
 #include "tracer/render/integrator.h"
 #include "tracer/render/recorder.h"
 #include "tracer/render/sampling.h"
+#include "tracer/scene/profile.h"
 
 namespace tracer {
 
@@ -207,6 +209,11 @@ struct BasicPath {
   template <class Recorder>
   static void radiance(const World& world, RayCaster& rays, const RenderSettings& settings,
                        const SampleBlock& block, Recorder& recorder) {
+    if constexpr (strategy == LightStrategy::combined && std::is_same_v<Recorder, NoRecorder>) {
+      if (settings.skips && make_profile(*world.scene).is_plain()) {
+        return diffuse_paths(world, rays, settings, block);
+      }
+    }
     PathWavefront<strategy, Recorder>(world, rays, settings, block, recorder).run();
   }
 };

@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 
+#include "tracer/base/directions.h"
 #include "tracer/render/integrator.h"
 #include "tracer/render/recorder.h"
 #include "tracer/render/sampling.h"

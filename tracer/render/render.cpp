@@ -64,6 +64,7 @@ struct PixelBlock {
   std::array<Sampler, capacity> samplers;
   std::array<Vec3d, capacity> radiance;
   size_t count = 0;
+  bool can_meet = true;
 };
 
 /// Renders a tile's part of a pass, block by block.
@@ -93,6 +94,9 @@ class TileRenderer {
 
   void gather(Vec2i first) {
     const Pass& pass = context_.pass;
+    const Vec2d end(first + block_side * pass.stride);
+    block_.can_meet = !context_.settings.skips || can_meet(context_.world.camera, Vec2d(first), end,
+                                                           context_.world.scene->mesh->bounds);
     block_.count = 0;
     for (int i = 0; i < block_side * block_side; ++i) {
       const Vec2i pixel = first + pass.stride * place_in_block(i);
@@ -119,7 +123,11 @@ class TileRenderer {
 
   bool render_samples(size_t first, size_t count) {
     if (context_.stop.requested()) return false;
-    rays_.closest_hits({&block_.rays[first], count}, {&block_.hits[first], count});
+    if (block_.can_meet) {
+      rays_.closest_hits({&block_.rays[first], count}, {&block_.hits[first], count});
+    } else {
+      std::fill_n(&block_.hits[first], count, Hit{});
+    }
     context_.integrator.radiance(context_.world, rays_, context_.settings,
                                  {.camera_rays = {&block_.rays[first], count},
                                   .camera_hits = {&block_.hits[first], count},

@@ -12,6 +12,7 @@ namespace tracer {
 struct RenderSettings {
   int bounces = 8;  // scatterings of a path at most
   int seed = 0;
+  bool skips = true;    // what the scene does not need: the same picture, sooner
   double exposure = 0;  // stops: radiance is multiplied by 2^exposure before it is shown
 };
 

@@ -4,20 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "tracer/base/directions.h"
-#include "tracer/base/trigonometry.h"
+#include "tracer/base/vectors.h"
 
 namespace tracer {
 
 /// A unit vector about the unit vector `normal`, never below its plane; u uniform in [0, 1)^2. Its
 /// pdf by solid angle is pdf_cosine_hemisphere.
-inline Vec3d sample_cosine_hemisphere(const Vec3d& normal, const Vec2d& u) {
-  const double radius = std::sqrt(u.x);
-  const CosSin around = cos_sin_of_turns(u.y);
-  const Tangents tangents = tangents_of(normal);
-  return radius * around.cos * tangents.x + radius * around.sin * tangents.y +
-         std::sqrt(1 - u.x) * normal;
-}
+Vec3d sample_cosine_hemisphere(const Vec3d& normal, const Vec2d& u);
 inline double pdf_cosine_hemisphere(double cosine) {
   return cosine > 0 ? cosine / std::numbers::pi : 0;
 }
@@ -31,9 +24,6 @@ inline Vec2d sample_triangle(const Vec2d& u) {
 
 /// Weight of a sample with `pdf` where the same could have come with `other_pdf`, by the power
 /// heuristic with exponent 2 [Veach 1995].
-inline double power_heuristic(double pdf, double other_pdf) {
-  const double ratio = other_pdf / pdf;
-  return 1 / (1 + ratio * ratio);
-}
+double power_heuristic(double pdf, double other_pdf);
 
 }  // namespace tracer

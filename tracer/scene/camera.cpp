@@ -2,6 +2,9 @@
 #include "tracer/scene/camera.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 
 #include "tracer/base/directions.h"
 #include "tracer/base/trigonometry.h"
@@ -63,6 +66,33 @@ Ray camera_ray(const CameraFrame& frame, const Vec2d& image_point_px) {
   const Vec2d offset = image_point_px - frame.center_px;
   const Vec3d direction = frame.forward + offset.x * frame.right_step + offset.y * frame.down_step;
   return {.origin = frame.origin, .direction = Vec3f(glm::normalize(direction))};
+}
+
+bool can_meet(const CameraFrame& frame, const Vec2d& first_px, const Vec2d& end_px,
+              const Box& bounds) {
+  const auto direction = [&](double x, double y) {
+    const Vec2d offset = Vec2d(x, y) - frame.center_px;
+    return frame.forward + offset.x * frame.right_step + offset.y * frame.down_step;
+  };
+  const std::array around{direction(first_px.x, first_px.y), direction(end_px.x, first_px.y),
+                          direction(end_px.x, end_px.y), direction(first_px.x, end_px.y)};
+  for (size_t side = 0; side < 4; ++side) {
+    const Vec3d outward = glm::cross(around[(side + 1) % 4], around[side]);
+    double nearest = std::numeric_limits<double>::infinity();
+    double farthest_square = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3d to_corner = Vec3d((corner & 1) == 0 ? bounds.min.x : bounds.max.x,
+                                    (corner & 2) == 0 ? bounds.min.y : bounds.max.y,
+                                    (corner & 4) == 0 ? bounds.min.z : bounds.max.z) -
+                              Vec3d(frame.origin);
+      nearest = std::min(nearest, glm::dot(outward, to_corner));
+      farthest_square = std::max(farthest_square, glm::dot(to_corner, to_corner));
+    }
+    // Rounding a ray's direction to float turns it by less than 2^-23.
+    const double turned = 0x1p-20 * std::sqrt(farthest_square * glm::dot(outward, outward));
+    if (nearest > turned) return false;
+  }
+  return true;
 }
 
 Camera frame_box(const Box& bounds, const Vec3d& mesh_origin, const Vec3d& view_direction,

@@ -34,6 +34,11 @@ CameraFrame make_camera_frame(const Camera& camera, Vec2i size_px, const Vec3d& 
 /// pixel. Unit length up to one rounding.
 Ray camera_ray(const CameraFrame& frame, const Vec2d& image_point_px);
 
+/// False only where no camera_ray through [first_px, end_px] meets anything in `bounds`, which are
+/// relative to the mesh's origin.
+bool can_meet(const CameraFrame& frame, const Vec2d& first_px, const Vec2d& end_px,
+              const Box& bounds);
+
 /// The view along `view_direction`, from the eye into the scene, that shows all of `bounds`
 /// (relative to `mesh_origin`) with a margin of some 5 %. `aspect` is width / height. `up` is the
 /// world's up axis, see guess_up.

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "tracer/scene/profile.h"
+
+namespace tracer {
+namespace {
+
+bool has_scattering_lobes(const Scene& scene) {
+  return std::any_of(scene.materials->begin(), scene.materials->end(),
+                     [](const Material& material) { return !is_diffuse(material.scattering); });
+}
+
+}  // namespace
+
+SceneProfile make_profile(const Scene& scene) {
+  return {.has_surface_colors = !scene.mesh->colors.empty() || !scene.textures->empty(),
+          .has_smooth_normals = scene.shading == Shading::smooth,
+          .has_emissive_triangles = !scene.lights->empty(),
+          .has_scattering_lobes = has_scattering_lobes(scene),
+          .has_alpha = !is_opaque(scene)};
+}
+
+std::vector<SkippedWork> skipped_work(const SceneProfile& profile) {
+  std::vector<SkippedWork> skipped;
+  if (!profile.has_surface_colors) {
+    skipped.push_back({"colours at each hit", "no textures, no colours of vertices"});
+  }
+  if (!profile.has_smooth_normals) {
+    skipped.push_back({"normals at each hit", "triangles are shaded flat"});
+  }
+  if (profile.is_plain()) {
+    skipped.push_back({"shading one path at a time", "all surfaces are plain"});
+  }
+  if (!profile.has_emissive_triangles) {
+    skipped.push_back({"shadow rays, and hits of last segments", "no triangle emits"});
+  }
+  skipped.push_back(
+      {"camera rays of blocks of pixels that cannot meet the model", "its bounds are known"});
+  return skipped;
+}
+
+}  // namespace tracer
