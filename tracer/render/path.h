@@ -8,7 +8,6 @@
 #include "tracer/render/integrator.h"
 #include "tracer/render/recorder.h"
 #include "tracer/render/sampling.h"
-#include "tracer/scene/profile.h"
 
 namespace tracer {
 
@@ -23,18 +22,20 @@ class PathWavefront {
  public:
   PathWavefront(const World& world, RayCaster& caster, const RenderSettings& settings,
                 const SampleBlock& block, Recorder& recorder)
-      : world_(world),
-        scene_(*world.scene),
+      : scene_(*world.scene),
         caster_(caster),
         settings_(settings),
         block_(block),
-        recorder_(recorder) {}
+        recorder_(recorder),
+        lights_(world, settings) {}
 
   void run() {
     start();
     for (int scatterings = 0;; ++scatterings) {
       shade(scatterings);
-      if (strategy != LightStrategy::scattering && !scene_.lights->empty()) add_light();
+      if (strategy != LightStrategy::scattering && !lights_.empty()) {
+        add_light(scatterings);
+      }
       scatter(scatterings);
       if (count_ == 0) return;
       caster_.closest_hits({rays_.data(), count_}, {hits_.data(), count_});
@@ -49,6 +50,7 @@ class PathWavefront {
     size_t sample;  // of the block
     Vec3d throughput;
     double scatter_pdf;  // by solid angle, of the ray's direction
+    LightReceiver from;  // where it was scattered
   };
 
   /// What a path's vertex scatters towards the viewer if nothing hides the light.
@@ -61,7 +63,7 @@ class PathWavefront {
   void start() {
     count_ = block_.size();
     for (size_t i = 0; i < count_; ++i) {
-      paths_[i] = {i, Vec3d(1), 0};
+      paths_[i] = {i, Vec3d(1), 0, {}};
       rays_[i] = block_.camera_rays[i];
       hits_[i] = block_.camera_hits[i];
       block_.radiance[i] = Vec3d(0);
@@ -83,20 +85,29 @@ class PathWavefront {
   bool shade(const Path& path, const Ray& ray, const Hit& hit, int scatterings, Surface& surface) {
     Vec3d& radiance = block_.radiance[path.sample];
     if (!hit.is_hit()) {
-      radiance += path.throughput * world_.sky;
+      const Vec3d direction(ray.direction);
+      const double weight = scatterings == 0 ? 1 : weight_of_found_sky(direction, path.scatter_pdf);
+      const Vec3d found = path.throughput * lights_.sky().radiance(direction) * weight;
+      radiance += limited(found, scatterings);
       recorder_.sky(ray, path.throughput, radiance);
       return false;
     }
     surface = surface_at(scene_, hit, Vec3d(ray.direction));
     if (surface.emission != Vec3d(0)) {
-      const double weight =
-          scatterings == 0 ? 1 : weight_of_found_light(ray, hit, path.scatter_pdf);
-      radiance += path.throughput * surface.emission * weight;
+      const double weight = scatterings == 0 ? 1 : weight_of_found_light(path, ray, hit);
+      radiance += limited(path.throughput * surface.emission * weight, scatterings);
     }
     recorder_.hit(ray, hit, surface, path.throughput, radiance);
     if (scatterings == settings_.bounces) return end("bounces");
     if (surface.scattering.base_color == Vec3f(0)) return end("absorbed");
     return true;
+  }
+
+  /// Light that was scattered so often on its way: direct light is never cut.
+  Vec3d limited(const Vec3d& light, int scatterings) const {
+    if (settings_.clamp == 0 || scatterings < 2) return light;
+    const double largest = max_abs(light);
+    return largest > settings_.clamp ? light * (settings_.clamp / largest) : light;
   }
 
   bool end(const char* reason) {
@@ -105,15 +116,24 @@ class PathWavefront {
   }
 
   /// Weight of emission that a scattered ray ran into.
-  double weight_of_found_light(const Ray& ray, const Hit& hit, double scatter_pdf) const {
+  double weight_of_found_light(const Path& path, const Ray& ray, const Hit& hit) const {
     if (strategy == LightStrategy::scattering) return 1;
-    const double pdf = pdf_light(scene_, hit.primitive, ray, hit.t);
-    if (strategy == LightStrategy::light_sampling) return pdf > 0 ? 0 : 1;
-    return power_heuristic(scatter_pdf, pdf);
+    return weight_beside(lights_.pdf(path.from, hit.primitive, ray, hit.t), path.scatter_pdf);
+  }
+
+  double weight_of_found_sky(const Vec3d& direction, double scatter_pdf) const {
+    if (strategy == LightStrategy::scattering) return 1;
+    return weight_beside(lights_.sky_pdf(direction), scatter_pdf);
+  }
+
+  // Of what scattering found, where light sampling finds the same with `light_pdf`.
+  static double weight_beside(double light_pdf, double scatter_pdf) {
+    if (strategy == LightStrategy::light_sampling) return light_pdf > 0 ? 0 : 1;
+    return power_heuristic(scatter_pdf, light_pdf);
   }
 
   /// Adds what each surface scatters from a point picked on the lights.
-  void add_light() {
+  void add_light(int scatterings) {
     size_t shadow_count = 0;
     for (size_t i = 0; i < count_; ++i) {
       Scattered& scattered = scattered_[shadow_count];
@@ -129,14 +149,16 @@ class PathWavefront {
         continue;
       }
       recorder_.light(light, "visible", radiance);
-      block_.radiance[paths_[i].sample] += paths_[i].throughput * radiance;
+      block_.radiance[paths_[i].sample] +=
+          limited(paths_[i].throughput * radiance, scatterings + 1);
     }
   }
 
   // False where the light is behind the surface.
   bool pick_light(const Surface& surface, Sampler& sampler, Scattered& scattered) {
     LightSample& light = scattered.light;
-    light = sample_light(scene_, surface, sampler);
+    const double which = sampler.next();
+    light = lights_.sample(surface, which, sampler.next_2d());
     const double cosine = glm::dot(light.direction, surface.shading_normal);
     const double geometric_cosine = glm::dot(light.direction, surface.geometric_normal);
     if (!(light.pdf > 0 && cosine > 0 && geometric_cosine > 0)) {
@@ -172,6 +194,7 @@ class PathWavefront {
     }
     Vec3d& throughput = path.throughput;
     throughput *= Vec3d(surface.scattering.base_color);
+    path.from = receiver_of(surface);
     path.scatter_pdf = pdf_cosine_hemisphere(glm::dot(direction, surface.shading_normal));
     if (scatterings + 1 >= first_roulette) {
       const double survival = std::min(1.0, std::max({throughput.x, throughput.y, throughput.z}));
@@ -181,12 +204,12 @@ class PathWavefront {
     return true;
   }
 
-  const World& world_;
   const Scene& scene_;
   RayCaster& caster_;
   const RenderSettings& settings_;
   const SampleBlock& block_;
   Recorder& recorder_;
+  const Lights lights_;
 
   // The paths under way, in the order of their samples: [0, count_) of each array.
   size_t count_ = 0;
@@ -200,7 +223,7 @@ class PathWavefront {
   Array<uint8_t> is_occluded_;
 };
 
-/// Diffuse surfaces under a constant sky, lit by emissive triangles. A path scatters at most
+/// Diffuse surfaces lit by the sky and by emissive triangles. A path scatters at most
 /// settings.bounces times, and its last segment may still end on a light or in the sky: with 0,
 /// only what shines by itself is seen. Paths end at random from the fourth scattering on, with the
 /// rest weighted up, so that the mean stays the same. [Kajiya 1986]
@@ -210,7 +233,7 @@ struct BasicPath {
   static void radiance(const World& world, RayCaster& rays, const RenderSettings& settings,
                        const SampleBlock& block, Recorder& recorder) {
     if constexpr (strategy == LightStrategy::combined && std::is_same_v<Recorder, NoRecorder>) {
-      if (settings.skips && make_profile(*world.scene).is_plain()) {
+      if (settings.skips && can_find_diffuse_paths(world, settings)) {
         return diffuse_paths(world, rays, settings, block);
       }
     }

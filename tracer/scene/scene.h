@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tracer/geometry/mesh.h"
+#include "tracer/scene/light_tree.h"
 #include "tracer/scene/material.h"
 #include "tracer/scene/texture.h"
 
@@ -13,11 +14,12 @@ namespace tracer {
 
 enum class Shading { flat, smooth };
 
-/// Triangles that emit, to be picked by power.
+/// Triangles that emit, to be picked by power; where they are many, by power and place.
 struct EmissiveTriangles {
   std::vector<uint32_t> triangles;
   std::vector<double> cumulative;     // of power / total power; the last is 1
-  std::vector<double> probabilities;  // of picking each
+  std::vector<double> probabilities;  // of picking each by power
+  LightTree tree;                     // over `triangles`; empty where they are few
   bool empty() const { return triangles.empty(); }
 };
 
