@@ -46,23 +46,6 @@ CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string
 /// --environment and --sun.
 void add_environment(CLI::App& app, EnvironmentSource& environment, const std::string& group);
 
-/// One option for each field of a settings struct.
-template <class Settings>
-void add_fields(CLI::App& app, const std::string& group, Settings& settings) {
-  for_each_field(settings, [&]<class T>(T& value, const tracer::Field<T>& field) {
-    const auto read = [&value, min = field.min, max = field.max](const std::string& text) {
-      if constexpr (std::is_integral_v<T>) {
-        value = parse_whole_number(text, min, max);
-      } else {
-        value = parse_number(text, min, max);
-      }
-    };
-    add_value(app, fmt::format("--{}", field.name), std::is_integral_v<T> ? "N" : "X",
-              fmt::format("{}, {} to {} [{}]", field.help, field.min, field.max, value), read)
-        ->group(group);
-  });
-}
-
 /// The names in a table of named things: "path, ao, normals".
 template <class Entry>
 std::string names_in(std::span<const Entry> table) {
@@ -81,6 +64,42 @@ const Entry* chosen_from(std::span<const Entry> table, const std::string& name) 
     if (entry.name == name) return &entry;
   }
   throw std::invalid_argument(fmt::format("'{}' is none of {}", name, names_in(table)));
+}
+
+/// A field whose value is a number.
+template <class T>
+void add_field(CLI::App& app, const std::string& group, T& value, const tracer::Field<T>& field) {
+  const auto read = [&value, min = field.min, max = field.max](const std::string& text) {
+    if constexpr (std::is_integral_v<T>) {
+      value = parse_whole_number(text, min, max);
+    } else {
+      value = parse_number(text, min, max);
+    }
+  };
+  add_value(app, fmt::format("--{}", field.name), std::is_integral_v<T> ? "N" : "X",
+            fmt::format("{}, {} to {} [{}]", field.help, field.min, field.max, value), read)
+      ->group(group);
+}
+
+/// A field whose value is one of a table.
+template <class T>
+requires std::is_enum_v<T>
+void add_field(CLI::App& app, const std::string& group, T& value, const tracer::Field<T>& field) {
+  const auto read = [&value, choices = field.choices](const std::string& text) {
+    value = chosen_from(choices, text)->value;
+  };
+  add_value(
+      app, fmt::format("--{}", field.name), "NAME",
+      fmt::format("{}: {} [{}]", field.help, names_in(field.choices), choice_of(value, field).name),
+      read)
+      ->group(group);
+}
+
+/// One option for each field of a settings struct.
+template <class Settings>
+void add_fields(CLI::App& app, const std::string& group, Settings& settings) {
+  for_each_field(settings,
+                 [&](auto& value, const auto& field) { add_field(app, group, value, field); });
 }
 
 }  // namespace app

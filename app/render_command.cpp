@@ -129,9 +129,8 @@ class RenderJob {
   }
 
   void describe_pixel() {
-    const std::string text =
-        describe_sample(world_, *options_.integrator, options_.render, report_.view.size_px,
-                        *options_.pixel, options_.sample);
+    const std::string text = describe_sample(world_, *options_.integrator, options_.render,
+                                             *options_.pixel, options_.sample);
     fmt::print("{}{}", text, text.ends_with('\n') ? "" : "\n");
   }
 

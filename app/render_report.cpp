@@ -45,7 +45,9 @@ Json used_settings(const RenderOptions& options, const RenderReport& report) {
   if (environment.sun) {
     settings["sun"] = {environment.sun->elevation_degrees, environment.sun->azimuth_degrees};
   }
-  const auto add = [&](const auto& value, const auto& field) { settings[field.name] = value; };
+  const auto add = [&](const auto& value, const auto& field) {
+    settings[field.name] = option_value(value, field);
+  };
   for_each_field(options.build, add);
   for_each_field(options.render, add);
   return settings;

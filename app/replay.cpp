@@ -50,7 +50,7 @@ std::vector<std::string> replay_arguments(const std::filesystem::path& model,
   }
   if (view.environment.sun) arguments.push_back("--sun=" + text_of(*view.environment.sun));
   for_each_field(settings, [&](const auto& value, const auto& field) {
-    arguments.push_back(fmt::format("--{}={}", field.name, value));
+    arguments.push_back(fmt::format("--{}={}", field.name, option_value(value, field)));
   });
   return arguments;
 }

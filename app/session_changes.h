@@ -12,8 +12,10 @@ namespace app {
 /// Whether any field whose change has this effect differs.
 template <class Settings>
 bool differs(const Settings& before, const Settings& after, tracer::Effect effect) {
-  std::vector<double> values;  // holds every int and double exactly
-  for_each_field(before, [&](const auto& value, const auto&) { values.push_back(value); });
+  std::vector<double> values;  // holds every int, enumerator and double exactly
+  for_each_field(before, [&](const auto& value, const auto&) {
+    values.push_back(static_cast<double>(value));
+  });
   size_t field_index = 0;
   bool is_different = false;
   for_each_field(after, [&](const auto& value, const auto& field) {

@@ -58,12 +58,12 @@ TEST_F(CommandLine, help_of_render_names_every_option) {
   const ProgramResult result = run_boxwood({"render", "--help"});
   EXPECT_EQ(result.exit_code, 0);
   for (const char* option :
-       {"--output",       "--spp",    "--time",        "--size",      "--view",
-        "--eye",          "--target", "--up",          "--fov",       "--integrator",
-        "--bounces",      "--sky",    "--bvh",         "--max-depth", "--leaf-size",
-        "--threads",      "--seed",   "--exposure",    "--pixel",     "--sample",
-        "--stats",        "--quiet",  "--environment", "--sun",       "--sky-strength",
-        "--sky-rotation", "--clamp"}) {
+       {"--output",       "--spp",          "--time",     "--size",        "--view",
+        "--eye",          "--target",       "--up",       "--fov",         "--integrator",
+        "--bounces",      "--sky",          "--bvh",      "--max-depth",   "--leaf-size",
+        "--threads",      "--seed",         "--exposure", "--sampler",     "--pixel",
+        "--sample",       "--stats",        "--quiet",    "--environment", "--sun",
+        "--sky-strength", "--sky-rotation", "--clamp"}) {
     EXPECT_NE(result.out.find(option), std::string::npos) << option;
   }
 }
@@ -91,50 +91,22 @@ TEST_F(CommandLine, unknown_options_and_extra_arguments_are_refused) {
 }
 
 TEST_F(CommandLine, bad_values_are_refused_by_the_name_of_the_option) {
-  const std::vector<std::pair<std::string, std::string>> bad_values = {{"--size", "0x0"},
-                                                                       {"--size", "99999999x2"},
-                                                                       {"--size", "640"},
-                                                                       {"--size", "-5x5"},
-                                                                       {"--spp", "-1"},
-                                                                       {"--spp", "0"},
-                                                                       {"--spp", "many"},
-                                                                       {"--time", "0"},
-                                                                       {"--time", "-3"},
-                                                                       {"--time", "nan"},
-                                                                       {"--threads", "0"},
-                                                                       {"--threads", "-2"},
-                                                                       {"--threads", "100000"},
-                                                                       {"--bvh", "no-such-tree"},
-                                                                       {"--integrator", "no-such"},
-                                                                       {"--max-depth", "0"},
-                                                                       {"--max-depth", "65"},
-                                                                       {"--leaf-size", "0"},
-                                                                       {"--leaf-size", "65"},
-                                                                       {"--bounces", "-1"},
-                                                                       {"--bounces", "65"},
-                                                                       {"--seed", "-1"},
-                                                                       {"--seed", "4294967296"},
-                                                                       {"--exposure", "21"},
-                                                                       {"--exposure", "inf"},
-                                                                       {"--eye", "1,2"},
-                                                                       {"--target", "a,b,c"},
-                                                                       {"--up", "0,0,0"},
-                                                                       {"--fov", "0"},
-                                                                       {"--fov", "180"},
-                                                                       {"--sky", "-1,0,0"},
-                                                                       {"--sky", "1"},
-                                                                       {"--sky", "1e39,0,0"},
-                                                                       {"--sun", "30"},
-                                                                       {"--sun", "91,0"},
-                                                                       {"--sun", "30,400"},
-                                                                       {"--sun", "30,"},
-                                                                       {"--sky-strength", "-1"},
-                                                                       {"--clamp", "-1"},
-                                                                       {"--eye", "1e39,0,0"},
-                                                                       {"--pixel", "1280,0"},
-                                                                       {"--pixel", "0,720"},
-                                                                       {"--pixel", "-1,0"},
-                                                                       {"--size", "65535x65535"}};
+  const std::vector<std::pair<std::string, std::string>> bad_values = {
+      {"--size", "0x0"},       {"--size", "99999999x2"},  {"--size", "640"},
+      {"--size", "-5x5"},      {"--spp", "-1"},           {"--spp", "0"},
+      {"--spp", "many"},       {"--time", "0"},           {"--time", "-3"},
+      {"--time", "nan"},       {"--threads", "0"},        {"--threads", "-2"},
+      {"--threads", "100000"}, {"--bvh", "no-such-tree"}, {"--integrator", "no-such"},
+      {"--sampler", "halton"}, {"--max-depth", "0"},      {"--max-depth", "65"},
+      {"--leaf-size", "0"},    {"--leaf-size", "65"},     {"--bounces", "-1"},
+      {"--bounces", "65"},     {"--seed", "-1"},          {"--seed", "4294967296"},
+      {"--exposure", "21"},    {"--exposure", "inf"},     {"--eye", "1,2"},
+      {"--target", "a,b,c"},   {"--up", "0,0,0"},         {"--fov", "0"},
+      {"--fov", "180"},        {"--sky", "-1,0,0"},       {"--sky", "1"},
+      {"--sky", "1e39,0,0"},   {"--sun", "30"},           {"--sun", "91,0"},
+      {"--sun", "30,400"},     {"--sun", "30,"},          {"--sky-strength", "-1"},
+      {"--clamp", "-1"},       {"--eye", "1e39,0,0"},     {"--pixel", "1280,0"},
+      {"--pixel", "0,720"},    {"--pixel", "-1,0"},       {"--size", "65535x65535"}};
   for (const auto& [option, value] : bad_values) expect_render_refused({option, value}, option);
 }
 
@@ -171,6 +143,7 @@ TEST_F(CommandLine, the_choices_are_listed_where_a_name_is_unknown) {
   expect_render_refused({"--bvh", "oak"}, "median");
   expect_render_refused({"--bvh", "oak"}, "off");
   expect_render_refused({"--integrator", "oak"}, "path");
+  expect_render_refused({"--sampler", "oak"}, "sobol, independent");
 }
 
 TEST_F(CommandLine, models_that_cannot_be_loaded_are_one_line) {

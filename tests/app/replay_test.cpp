@@ -20,6 +20,7 @@ const app::ResolvedView view{.camera = {.eye = {1.0 / 3, 2.1, 4.7},
                              .size_px = {16, 12},
                              .sky = {0.1, 1.0 / 7, 3},
                              .environment = {.file = {}, .sun = {{100.0 / 3, -70.1}}}};
+const tracer::RenderSettings settings{.sampler = tracer::SamplerKind::independent, .seed = 7};
 const tracer::Integrator& path = *tracer::find_integrator("path");
 
 TEST(Replay, of_a_sample_has_the_radiance_of_the_picture) {
@@ -29,16 +30,16 @@ TEST(Replay, of_a_sample_has_the_radiance_of_the_picture) {
   const std::string picture = folder / "cube.pfm";
   // All that the command says of a picture, in place of what it says of a sample.
   std::vector<std::string> arguments =
-      app::replay_arguments(model, view, path, {.seed = 7}, {{0, 0}, 0});
+      app::replay_arguments(model, view, path, settings, {{0, 0}, 0});
   std::erase_if(arguments, [](const std::string& argument) {
-    return argument.starts_with("--pixel") || argument.starts_with("--sample");
+    return argument.starts_with("--pixel") || argument.starts_with("--sample=");
   });
   arguments.insert(arguments.end(), {"--spp", "1", "-o", picture});
   ASSERT_EQ(run_boxwood(arguments).exit_code, 0);
   const Pfm pixels = read_pfm(picture);
   for (const tracer::Vec2i pixel : {tracer::Vec2i(8, 6), {0, 0}, {15, 11}, {6, 8}}) {
     const ProgramResult replayed =
-        run_boxwood(app::replay_arguments(model, view, path, {.seed = 7}, {pixel, 0}));
+        run_boxwood(app::replay_arguments(model, view, path, settings, {pixel, 0}));
     ASSERT_EQ(replayed.exit_code, 0) << replayed.err;
     std::istringstream last_line(replayed.out.substr(replayed.out.rfind("radiance ") + 9));
     tracer::Vec3d radiance;

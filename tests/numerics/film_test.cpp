@@ -63,7 +63,7 @@ TEST(NumericsFilm, samples_that_are_not_finite_are_counted_as_black_and_spread_t
         Trial trial(2, static_cast<uint64_t>(y * size_px.x + x), tally);
         trial.check(film.mean(x, y) == expected.mean(x, y) && film.sample_count(x, y) == 1,
                     [&] { return "pixel " + std::to_string(x) + ", " + std::to_string(y); });
-        if (is_finite(render_sample(world, path, {}, size_px, {x, y}, 0, rays))) continue;
+        if (is_finite(render_sample(world, path, {}, {x, y}, 0, rays))) continue;
         if (not_finite++ == 0) first_not_finite = {{x, y}, 0};
       }
     }

@@ -50,7 +50,7 @@ TEST(PathFurnace, a_closed_emitting_box_has_the_truncated_sum_of_its_albedo_in_e
   for (int bounces = 0; bounces <= 3; ++bounces) {
     for (uint32_t sample = 0; sample < 2000; ++sample) {
       const Vec3d radiance =
-          render_sample(world, by_scattering, {.bounces = bounces}, {1, 1}, {0, 0}, sample, rays);
+          render_sample(world, by_scattering, {.bounces = bounces}, {0, 0}, sample, rays);
       ASSERT_NEAR(radiance.x, truncated_sum(0.5, bounces), 1e-6);
     }
   }
@@ -172,7 +172,7 @@ TEST(Path, without_lights_there_are_no_shadow_rays) {
   test::set_camera(world, {.eye = {0, 0, 4}, .fov_degrees = 1}, {1, 1});
   const StopFlag never;
   RayCaster rays(*world.accel, never);
-  render_sample(world, path(), {}, {1, 1}, {0, 0}, 0, rays);
+  render_sample(world, path(), {}, {0, 0}, 0, rays);
   // The camera's ray, and one that leaves the convex body.
   EXPECT_EQ(rays.ray_count(), 2u);
 }

@@ -212,8 +212,8 @@ TEST(DescribeSample, ends_with_the_radiance_that_rendering_computes) {
   for (const Integrator& integrator : integrators()) {
     for (int x = 0; x < size_px.x; x += 13) {
       const Vec2i pixel(x, 35);
-      const Vec3d radiance = render_sample(world, integrator, {}, size_px, pixel, 2, rays);
-      const std::string text = describe_sample(world, integrator, {}, size_px, pixel, 2);
+      const Vec3d radiance = render_sample(world, integrator, {}, pixel, 2, rays);
+      const std::string text = describe_sample(world, integrator, {}, pixel, 2);
       ASSERT_EQ(text.rfind("0  camera  ", 0), 0u) << text;
       const size_t last_line = text.rfind("\nradiance ");
       ASSERT_NE(last_line, std::string::npos) << text;
@@ -241,7 +241,7 @@ TEST(Integrators, previews_show_normals_albedo_and_openness) {
   const StopFlag never;
   RayCaster rays(*world.accel, never);
   const auto sample = [&](const char* name) {
-    return render_sample(world, *find_integrator(name), {}, {1, 1}, {0, 0}, 0, rays);
+    return render_sample(world, *find_integrator(name), {}, {0, 0}, 0, rays);
   };
   EXPECT_EQ(sample("normals"), Vec3d(0.5, 0.5, 1));
   EXPECT_NEAR(sample("eyelight").x, 0.25, 1e-9);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tracer/base/directions.h"
+#include "tracer/render/render_settings.h"
 #include "tracer/render/sampler.h"
 
 namespace tracer {
@@ -26,42 +27,89 @@ double chi_square_of_equal(const std::vector<int>& counts) {
   return sum;
 }
 
-TEST(Sampler, is_uniform_over_pixels_samples_and_dimensions) {
+constexpr SamplerKind kinds[] = {SamplerKind::sobol, SamplerKind::independent};
+
+TEST(Sampler, is_uniform_over_pixels_samples_dimensions_and_seeds) {
   constexpr int cells = 32;
-  std::vector<int> pixels(cells * cells), samples(cells * cells), dimensions(cells * cells);
-  const auto count = [&](std::vector<int>& counts, const Vec2d& u) {
-    ++counts[static_cast<size_t>(u.x * cells) * cells + static_cast<size_t>(u.y * cells)];
-  };
-  Sampler walk(3, 5, 0);
-  for (uint32_t i = 0; i < 400'000; ++i) {
-    count(pixels, Sampler(i, 0, 0).next_2d());
-    count(samples, Sampler(17, i, 0).next_2d());
-    count(dimensions, walk.next_2d());
-  }
-  for (const auto& counts : {pixels, samples, dimensions}) {
-    EXPECT_LT(chi_square_of_equal(counts), chi_square_limit(cells * cells - 1));
+  for (const SamplerKind kind : kinds) {
+    std::vector<int> pixels(cells * cells), samples(cells * cells), dimensions(cells * cells),
+        seeds(cells * cells);
+    const auto count = [&](std::vector<int>& counts, const Vec2d& u) {
+      ASSERT_LT(u.x, 1);
+      ASSERT_LT(u.y, 1);
+      ++counts[static_cast<size_t>(u.x * cells) * cells + static_cast<size_t>(u.y * cells)];
+    };
+    Sampler walk(kind, {3, 2}, 5, 0);
+    for (uint32_t i = 0; i < 400'000; ++i) {
+      count(pixels, Sampler(kind, Vec2i(i % 1000, i / 1000), 0, 0).next_2d());
+      count(samples, Sampler(kind, {17, 4}, i, 0).next_2d());
+      count(dimensions, walk.next_2d());
+      count(seeds, Sampler(kind, {17, 4}, 3, i).next_2d());
+    }
+    for (const auto& counts : {pixels, samples, dimensions, seeds}) {
+      EXPECT_LT(chi_square_of_equal(counts), chi_square_limit(cells * cells - 1));
+    }
   }
 }
 
-TEST(Sampler, seeds_neighbouring_pixels_and_samples_are_independent) {
+TEST(Sampler, each_dimension_is_uniform_over_samples_of_many_pixels) {
+  constexpr int cells = 256;
+  for (const SamplerKind kind : kinds) {
+    std::vector<std::vector<int>> counts(700, std::vector<int>(cells));
+    for (int i = 0; i < 16 * 500; ++i) {
+      // One pixel of each block: its neighbours' numbers keep apart.
+      Sampler sampler(kind, Vec2i(16 * (i / 16 % 100), 16 * (i / 1600)), i % 16, 2);
+      for (auto& of_dimension : counts) ++of_dimension[static_cast<size_t>(sampler.next() * cells)];
+    }
+    for (const auto& of_dimension : counts) {
+      EXPECT_LT(chi_square_of_equal(of_dimension), chi_square_limit(cells - 1));
+    }
+  }
+}
+
+TEST(Sampler, seeds_and_dimensions_are_independent) {
   constexpr int count = 200'000;
-  double by_seed = 0, by_pixel = 0, by_sample = 0;
+  for (const SamplerKind kind : kinds) {
+    double by_seed = 0, by_dimension = 0;
+    for (int i = 0; i < count; ++i) {
+      const Vec2i pixel(i % 500, i / 500);
+      const auto sample = static_cast<uint32_t>(i % 7);
+      Sampler sampler(kind, pixel, sample, 0);
+      const double here = sampler.next() - 0.5;
+      by_dimension += here * (sampler.next() - 0.5);
+      by_seed += here * (Sampler(kind, pixel, sample, 1).next() - 0.5);
+    }
+    const double limit = 4 / std::sqrt(static_cast<double>(count)) / 12;
+    EXPECT_LT(std::abs(by_seed / count), limit);
+    EXPECT_LT(std::abs(by_dimension / count), 2 * limit);  // squares of pixels are alike
+  }
+}
+
+TEST(Sampler, independent_neighbouring_pixels_and_samples_are) {
+  constexpr int count = 200'000;
+  double by_pixel = 0, by_sample = 0;
   for (uint32_t i = 0; i < count; ++i) {
     const double here = Sampler(i, i / 7, 0).next() - 0.5;
-    by_seed += here * (Sampler(i, i / 7, 1).next() - 0.5);
     by_pixel += here * (Sampler(i + 1, i / 7, 0).next() - 0.5);
     by_sample += here * (Sampler(i, i / 7 + 1, 0).next() - 0.5);
   }
   const double limit = 4 / std::sqrt(static_cast<double>(count)) / 12;
-  EXPECT_LT(std::abs(by_seed / count), limit);
   EXPECT_LT(std::abs(by_pixel / count), limit);
   EXPECT_LT(std::abs(by_sample / count), limit);
 }
 
 TEST(Sampler, equal_arguments_give_equal_numbers) {
-  Sampler a(1, 2, 3);
-  Sampler b(1, 2, 3);
-  for (int i = 0; i < 10; ++i) EXPECT_EQ(a.next(), b.next());
+  for (const SamplerKind kind : kinds) {
+    Sampler a(kind, {1, 4}, 2, 3);
+    Sampler b(kind, {1, 4}, 2, 3);
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(a.next(), b.next());
+  }
+}
+
+TEST(Sampler, table_lists_every_kind_once_and_the_default_first) {
+  ASSERT_EQ(samplers().size(), std::size(kinds));
+  for (size_t i = 0; i < std::size(kinds); ++i) EXPECT_EQ(samplers()[i].value, kinds[i]);
+  EXPECT_EQ(RenderSettings{}.sampler, samplers().front().value);
 }
 
 TEST(CosineHemisphere, is_distributed_as_its_pdf_says) {

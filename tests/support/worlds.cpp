@@ -114,7 +114,7 @@ Estimate estimate(const World& world, const Integrator& integrator, const Render
   double sum_of_squares = 0;
   for (uint32_t sample = 0; sample < sample_count; ++sample) {
     const double value =
-        luminance(render_sample(world, integrator, settings, {1, 1}, {0, 0}, sample, rays));
+        luminance(render_sample(world, integrator, settings, {0, 0}, sample, rays));
     sum += value;
     sum_of_squares += value * value;
   }

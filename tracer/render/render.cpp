@@ -20,11 +20,9 @@ struct PixelSample {
 };
 
 /// Pixels are box filters: the ray goes through a point uniform in the pixel.
-PixelSample start_sample(const World& world, const RenderSettings& settings, Vec2i size_px,
-                         Vec2i pixel, uint32_t sample) {
-  const uint32_t pixel_index = static_cast<uint32_t>(pixel.y) * static_cast<uint32_t>(size_px.x) +
-                               static_cast<uint32_t>(pixel.x);
-  Sampler sampler(pixel_index, sample, static_cast<uint32_t>(settings.seed));
+PixelSample start_sample(const World& world, const RenderSettings& settings, Vec2i pixel,
+                         uint32_t sample) {
+  Sampler sampler(settings.sampler, pixel, sample, static_cast<uint32_t>(settings.seed));
   const Vec2d image_point = Vec2d(pixel) + sampler.next_2d();
   return {camera_ray(world.camera, image_point), sampler};
 }
@@ -103,8 +101,7 @@ class TileRenderer {
       if (pixel.x >= tile_.x1 || pixel.y >= tile_.y1) continue;
       if (context_.film.sample_count(pixel.x, pixel.y) > pass.sample) continue;
       assert(context_.film.sample_count(pixel.x, pixel.y) == pass.sample);
-      const PixelSample start = start_sample(context_.world, context_.settings,
-                                             context_.film.size_px(), pixel, pass.sample);
+      const PixelSample start = start_sample(context_.world, context_.settings, pixel, pass.sample);
       block_.pixels[block_.count] = pixel;
       block_.rays[block_.count] = start.ray;
       block_.samplers[block_.count] = start.sampler;
@@ -159,9 +156,9 @@ class TileRenderer {
 
 /// Starts a sample and has it answered as a block of one.
 template <class Answer>
-Vec3d answer_sample(const World& world, const RenderSettings& settings, Vec2i size_px, Vec2i pixel,
+Vec3d answer_sample(const World& world, const RenderSettings& settings, Vec2i pixel,
                     uint32_t sample, RayCaster& rays, const Answer& answer) {
-  auto [ray, sampler] = start_sample(world, settings, size_px, pixel, sample);
+  auto [ray, sampler] = start_sample(world, settings, pixel, sample);
   const Hit hit = rays.closest_hit(ray);
   Vec3d radiance(0);
   answer(SampleBlock{.camera_rays = {&ray, 1},
@@ -208,24 +205,22 @@ PassStats render_pass(const World& world, const Integrator& integrator,
 }
 
 Vec3d render_sample(const World& world, const Integrator& integrator,
-                    const RenderSettings& settings, Vec2i size_px, Vec2i pixel, uint32_t sample,
-                    RayCaster& rays) {
+                    const RenderSettings& settings, Vec2i pixel, uint32_t sample, RayCaster& rays) {
   const auto find_radiance = [&](const SampleBlock& block) {
     integrator.radiance(world, rays, settings, block);
   };
-  return answer_sample(world, settings, size_px, pixel, sample, rays, find_radiance);
+  return answer_sample(world, settings, pixel, sample, rays, find_radiance);
 }
 
 std::string describe_sample(const World& world, const Integrator& integrator,
-                            const RenderSettings& settings, Vec2i size_px, Vec2i pixel,
-                            uint32_t sample) {
+                            const RenderSettings& settings, Vec2i pixel, uint32_t sample) {
   const StopFlag never;
   RayCaster rays(*world.accel, never);
   std::string text;
   const auto describe = [&](const SampleBlock& block) {
     integrator.describe(world, rays, settings, block, text);
   };
-  const Vec3d radiance = answer_sample(world, settings, size_px, pixel, sample, rays, describe);
+  const Vec3d radiance = answer_sample(world, settings, pixel, sample, rays, describe);
   text += fmt::format("radiance {:.9g} {:.9g} {:.9g}\n", radiance.x, radiance.y, radiance.z);
   return text;
 }

@@ -54,12 +54,10 @@ PassStats render_pass(const World& world, const Integrator& integrator,
 
 /// The radiance of one sample of one pixel, as render_pass computes it.
 Vec3d render_sample(const World& world, const Integrator& integrator,
-                    const RenderSettings& settings, Vec2i size_px, Vec2i pixel, uint32_t sample,
-                    RayCaster& rays);
+                    const RenderSettings& settings, Vec2i pixel, uint32_t sample, RayCaster& rays);
 
 /// The path of one sample in words, a line a vertex: where, what was hit, throughput, radiance.
 std::string describe_sample(const World& world, const Integrator& integrator,
-                            const RenderSettings& settings, Vec2i size_px, Vec2i pixel,
-                            uint32_t sample);
+                            const RenderSettings& settings, Vec2i pixel, uint32_t sample);
 
 }  // namespace tracer

@@ -6,11 +6,13 @@
 #include <type_traits>
 
 #include "tracer/base/fields.h"
+#include "tracer/render/sampler.h"
 
 namespace tracer {
 
 struct RenderSettings {
   int bounces = 8;  // scatterings of a path at most
+  SamplerKind sampler = SamplerKind::sobol;
   int seed = 0;
   bool skips = true;  // what the scene does not need: the same picture, sooner
   double sky_strength = 1;
@@ -24,6 +26,8 @@ requires std::same_as<std::remove_const_t<Settings>, RenderSettings>
 void for_each_field(Settings& settings, F&& f) {
   f(settings.bounces,
     Field<int>{"bounces", 0, 64, "scatterings of a path at most", Effect::restart});
+  f(settings.sampler,
+    Field<SamplerKind>{"sampler", samplers(), "how samples are spread", Effect::restart});
   f(settings.seed, Field<int>{"seed", 0, 0x7fffffff, "picks the random numbers", Effect::restart});
   f(settings.sky_strength,
     Field<double>{"sky-strength", 0, 100, "times the light of the sky", Effect::restart});

@@ -72,9 +72,9 @@ class LightTreeBuilder {
       const auto worst = std::ranges::max_element(
           children, {}, [](const Group& group) { return group.size() > 1 ? group.cost() : -1.0; });
       if (worst->size() < 2) break;
-      auto [left, right] = split(*worst, depth);
-      *worst = std::move(left);
-      children.push_back(std::move(right));
+      const auto [left, right] = split(*worst, depth);
+      *worst = left;
+      children.push_back(right);
     }
     for (uint32_t child = 0; child < children.size(); ++child) {
       set_child(index, child, children[child], depth);

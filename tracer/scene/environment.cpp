@@ -19,8 +19,7 @@ bool Sun::covers(const Vec3d& towards) const {
   return glm::dot(apart, apart) <= 2 * (1 - cos_radius);
 }
 
-Environment::Environment(SkyMap map, std::optional<Sun> sun)
-    : map_(std::move(map)), sun_(std::move(sun)) {
+Environment::Environment(SkyMap map, std::optional<Sun> sun) : map_(std::move(map)), sun_(sun) {
   if (!sun_) return;
   // A sun below the horizon of what it lights, or a black map, leaves the other its share.
   constexpr double least_share = 0.1;

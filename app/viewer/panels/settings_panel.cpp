@@ -70,16 +70,32 @@ void draw_value(const char* id, double& value, const tracer::Field<double>& fiel
   end_slider();
 }
 
+/// Whether it is being dragged.
+template <class T>
+bool draw_field(const Ui& ui, T& value, const tracer::Field<T>& field) {
+  control_label(ui, format_label(field.name));
+  draw_value((std::string("##") + field.name).c_str(), value, field);
+  const bool is_dragged = ImGui::IsItemActive();
+  finish_control(ui, field.name, field.help);
+  return is_dragged;
+}
+
+template <class T>
+requires std::is_enum_v<T>
+bool draw_field(const Ui& ui, T& value, const tracer::Field<T>& field) {
+  const tracer::Choice<T>* chosen = &choice_of(value, field);
+  draw_choice(ui, format_label(field.name).c_str(), field.name, field.choices, chosen);
+  value = chosen->value;
+  return false;
+}
+
 /// Those of the settings that `is_drawn` picks by their names; whether one is being dragged.
 template <class Settings, class Pick>
 bool draw_fields(const Ui& ui, Settings& settings, Pick&& is_drawn) {
   bool is_dragged = false;
   for_each_field(settings, [&](auto& value, const auto& field) {
     if (!is_drawn(std::string_view(field.name))) return;
-    control_label(ui, format_label(field.name));
-    draw_value((std::string("##") + field.name).c_str(), value, field);
-    is_dragged |= ImGui::IsItemActive();
-    finish_control(ui, field.name, field.help);
+    is_dragged |= draw_field(ui, value, field);
   });
   return is_dragged;
 }

@@ -227,9 +227,11 @@ class MortonBuild {
       codes += half & -static_cast<uint32_t>(codes[half - 1] < first_code);
       count -= half;
     }
+    // The last of them has the bit, so that it may be looked at again in the place of what follows
+    // the range, which another thread may be sorting.
     uint32_t left_count = 0;
     for (uint32_t i = 0; i < codes_a_search; ++i) {
-      left_count += static_cast<uint32_t>(i < count) & static_cast<uint32_t>(codes[i] < first_code);
+      left_count += static_cast<uint32_t>(codes[std::min(i, count - 1)] < first_code);
     }
     return static_cast<uint32_t>(codes - codes_.data()) + left_count;
   }

@@ -29,7 +29,8 @@ void SmallSweep::sort(const Box4& half_centers) {
     Int4 key = Int4{} + std::numeric_limits<int32_t>::max();
     if (i < count) {
       const Float4 offset = half_center_of(references_[i].box()) - half_centers.min;
-      key = __builtin_convertvector(offset * scale, Int4) * 32 + static_cast<int32_t>(i);
+      // Shifted, where lane w, which means nothing, may overflow.
+      key = (__builtin_convertvector(offset * scale, Int4) << 5) + static_cast<int32_t>(i);
     }
     for (int axis = 0; axis < 3; ++axis) keys[axis][i / 4][i % 4] = key[axis];
   }
