@@ -73,7 +73,7 @@ inline void check_obj(std::string_view bytes) {
 inline void check_mtl(std::string_view bytes) {
   for (const MtlMaterial& material : parse_mtl(bytes, "x.mtl").materials) {
     require(is_finite(material.kd) && is_finite(material.ks) && is_finite(material.ke) &&
-                std::isfinite(material.ns) && std::isfinite(material.ni) &&
+                std::isfinite(material.ns.value_or(0)) && std::isfinite(material.ni.value_or(0)) &&
                 std::isfinite(material.d),
             "material values are finite");
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -50,8 +51,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   try {
     const tracer::Texture texture = tracer::load_texture(file.path());
     tracer::require(texture.width > 0 && texture.height > 0, "a texture has texels");
-    tracer::require(texture.texels.size() == static_cast<size_t>(texture.width) * texture.height,
+    const size_t texel_count = static_cast<size_t>(texture.width) * texture.height;
+    tracer::require(texture.codes.size() + texture.values.size() >=
+                        texel_count * static_cast<size_t>(texture.channel_count),
                     "there are as many texels as pixels");
+    const tracer::Vec4f texel =
+        tracer::eval_texture(texture, {0.3, 0.7}, 3, tracer::Wrapping::repeat);
+    tracer::require(std::isfinite(texel.x + texel.w), "texels are finite");
   } catch (const tracer::LoadError&) {
   }
   return 0;

@@ -55,15 +55,15 @@ TEST(ImportObj, joins_mesh_materials_and_textures) {
 
   const std::vector<Material>& materials = *imported.scene.materials;
   ASSERT_EQ(materials.size(), 3u);
-  EXPECT_EQ(materials[0].diffuse, Vec3f(0.8f));
+  EXPECT_EQ(materials[0].scattering.base_color, Vec3f(0.8f));
   EXPECT_EQ(materials[1].name, "red");
-  EXPECT_EQ(materials[1].diffuse, Vec3f(1, 0, 0));
-  EXPECT_EQ(materials[1].diffuse_texture, 0u);
-  EXPECT_EQ(materials[2].diffuse, Vec3f(1, 0, 0.5f));
+  EXPECT_EQ(materials[1].scattering.base_color, Vec3f(1, 0, 0));
+  EXPECT_EQ(materials[1].map(MapSlot::base_color).texture, 0u);
+  EXPECT_EQ(materials[2].scattering.base_color, Vec3f(1, 0, 0.5f));
   EXPECT_EQ(materials[2].emission, Vec3f(3, 2, 1));
-  EXPECT_EQ(materials[2].diffuse_texture, no_texture);
+  EXPECT_EQ(materials[2].map(MapSlot::base_color).texture, no_texture);
   ASSERT_EQ(imported.scene.textures->size(), 1u);
-  EXPECT_EQ(imported.scene.textures->at(0).texels.at(0), Vec3f(1));
+  EXPECT_EQ(eval_texture(imported.scene.textures->at(0), Vec2f(0)), Vec3f(1));
   EXPECT_EQ(imported.scene.mesh->material_of(0), 0u);
   EXPECT_EQ(imported.scene.mesh->material_of(1), 1u);
   EXPECT_EQ(imported.scene.mesh->material_of(3), 2u);
@@ -93,7 +93,7 @@ TEST(ImportObj, a_missing_library_is_a_warning_and_its_materials_are_grey) {
   EXPECT_EQ(warning(imported, 1),
             path.string() +
                 ":10: material 'a' and 2 more: in no material library, shown in the default grey");
-  EXPECT_EQ(imported.scene.materials->at(3).diffuse, Vec3f(0.8f));
+  EXPECT_EQ(imported.scene.materials->at(3).scattering.base_color, Vec3f(0.8f));
 }
 
 TEST(ImportObj, libraries_are_read_in_order_and_the_first_definition_counts) {
@@ -104,8 +104,8 @@ TEST(ImportObj, libraries_are_read_in_order_and_the_first_definition_counts) {
       folder.write("x.obj", "mtllib a.mtl my b.mtl\nmtllib a.mtl\n" + square +
                                 "usemtl m #comment\nf 1 2 3\nusemtl Material #2\nf 1 2 3\n"));
   EXPECT_EQ(imported.warnings.count(), 0) << warning(imported, 0);
-  EXPECT_EQ(imported.scene.materials->at(1).diffuse, Vec3f(1, 0, 0));
-  EXPECT_EQ(imported.scene.materials->at(2).diffuse, Vec3f(0, 0, 1));
+  EXPECT_EQ(imported.scene.materials->at(1).scattering.base_color, Vec3f(1, 0, 0));
+  EXPECT_EQ(imported.scene.materials->at(2).scattering.base_color, Vec3f(0, 0, 1));
 }
 
 TEST(ImportObj, tells_the_files_it_depends_on_also_those_that_are_missing) {
@@ -132,13 +132,14 @@ TEST(ImportObj, paths_that_leave_the_models_folder_are_refused) {
     EXPECT_NE(warning(imported, 0).find("is refused: paths must stay in the model's folder"),
               std::string::npos)
         << warning(imported, 0);
-    EXPECT_EQ(imported.scene.materials->at(1).diffuse, Vec3f(0.8f));
+    EXPECT_EQ(imported.scene.materials->at(1).scattering.base_color, Vec3f(0.8f));
   }
   folder.write("model/a.mtl", "newmtl m\nmap_Kd ../white.ppm\n");
   const ImportedScene imported =
       import(folder.write("model/x.obj", "mtllib a.mtl\n" + square + "usemtl m\n" + textured_face));
   EXPECT_NE(warning(imported, 0).find("map_Kd '../white.ppm' is refused"), std::string::npos);
-  EXPECT_EQ(imported.scene.materials->at(1).diffuse_texture, no_texture);
+  EXPECT_EQ(imported.scene.materials->at(1).map(MapSlot::base_color).texture, 0u);
+  EXPECT_EQ(imported.scene.textures->at(0).width, make_checker().width);
 }
 
 TEST(ImportObj, a_file_of_the_name_stands_in_for_a_path_of_another_machine) {
@@ -157,7 +158,7 @@ TEST(ImportObj, a_file_of_the_name_stands_in_for_a_path_of_another_machine) {
   const ImportedScene imported =
       import(folder.write("x.obj", "mtllib D:\\b.mtl\n" + square + "usemtl m\nf 1 2 3\n"));
   EXPECT_EQ(imported.warnings.count(), 0) << warning(imported, 0);
-  EXPECT_EQ(imported.scene.materials->at(1).diffuse, Vec3f(1, 0, 0));
+  EXPECT_EQ(imported.scene.materials->at(1).scattering.base_color, Vec3f(1, 0, 0));
 }
 
 TEST(ImportObj, warnings_name_their_lines_and_stand_in_their_order) {
@@ -204,12 +205,58 @@ TEST(ImportObj, a_broken_texture_is_a_warning_and_the_others_stay_right) {
   EXPECT_EQ(imported.warnings.count(), 2);
   EXPECT_NE(warning(imported, 0).find("bad.png: no image that can be read"), std::string::npos);
   EXPECT_NE(warning(imported, 1).find("missing.png: No such file"), std::string::npos);
-  ASSERT_EQ(imported.scene.textures->size(), 1u);
+  // The checker, once, and the white one.
+  ASSERT_EQ(imported.scene.textures->size(), 2u);
+  EXPECT_EQ(imported.scene.textures->at(0).codes, make_checker().codes);
   const std::vector<Material>& materials = *imported.scene.materials;
-  EXPECT_EQ(materials[1].diffuse_texture, no_texture);
-  EXPECT_EQ(materials[2].diffuse_texture, no_texture);
-  EXPECT_EQ(materials[3].diffuse_texture, 0u);
-  EXPECT_EQ(materials[4].diffuse_texture, 0u);
+  EXPECT_EQ(materials[1].map(MapSlot::base_color).texture, 0u);
+  EXPECT_EQ(materials[2].map(MapSlot::base_color).texture, 0u);
+  EXPECT_EQ(materials[3].map(MapSlot::base_color).texture, 1u);
+  EXPECT_EQ(materials[4].map(MapSlot::base_color).texture, 1u);
+}
+
+TEST(ImportObj, a_missing_texture_of_numbers_is_a_warning_and_the_number_counts) {
+  const TemporaryFolder folder;
+  folder.write("a.mtl", "newmtl m\nPr 0.25\nmap_Pr no.png\nnorm no.png\nmap_d no.png\n");
+  const ImportedScene imported =
+      import(folder.write("x.obj", "mtllib a.mtl\n" + square + "usemtl m\n" + textured_face));
+  // Once as numbers, once as normals.
+  EXPECT_EQ(imported.warnings.count(), 2);
+  const Material& material = imported.scene.materials->at(1);
+  EXPECT_FALSE(material.has_maps);
+  EXPECT_EQ(material.scattering.roughness, 0.25f);
+  EXPECT_TRUE(is_opaque(imported.scene));
+}
+
+TEST(ImportObj, an_image_is_read_once_a_use) {
+  const TemporaryFolder folder;
+  folder.write("t/wei\xc3\x9f 1.ppm", white_ppm);
+  folder.write("a.mtl",
+               "newmtl m\nmap_Kd t\\wei\xc3\x9f 1.ppm\nmap_Pr t/wei\xc3\x9f 1.ppm\n"
+               "map_Pm t/./wei\xc3\x9f 1.ppm\nmap_Ke t/wei\xc3\x9f 1.ppm\n");
+  const ImportedScene imported =
+      import(folder.write("x.obj", "mtllib a.mtl\n" + square + "usemtl m\n" + textured_face));
+  EXPECT_EQ(imported.warnings.count(), 0) << warning(imported, 0);
+  EXPECT_EQ(imported.scene.textures->size(), 2u);
+  EXPECT_EQ(imported.files.size(), 2u);
+  const Material& material = imported.scene.materials->at(1);
+  EXPECT_EQ(material.map(MapSlot::roughness).texture, material.map(MapSlot::metallic).texture);
+  EXPECT_NE(material.map(MapSlot::roughness).texture, material.map(MapSlot::base_color).texture);
+  // A texture shines without a Ke.
+  EXPECT_EQ(material.emission, Vec3f(1));
+}
+
+TEST(ImportObj, textures_that_are_not_shown_are_said_once_a_kind) {
+  const TemporaryFolder folder;
+  folder.write("a.mtl", "newmtl m\ndisp d.png\nnewmtl n\ndisp d.png\nmap_Ps s.png\n");
+  const ImportedScene imported =
+      import(folder.write("x.obj", "mtllib a.mtl\n" + square + "usemtl m\n" + textured_face +
+                                       "usemtl n\n" + textured_face));
+  ASSERT_EQ(imported.warnings.count(), 2);
+  EXPECT_NE(warning(imported, 0).find("a.mtl:2: disp: textures of this kind are not shown"),
+            std::string::npos)
+      << warning(imported, 0);
+  EXPECT_NE(warning(imported, 1).find("a.mtl:5: map_Ps"), std::string::npos);
 }
 
 TEST(ImportObj, textures_without_coordinates_to_use_them_are_not_read) {

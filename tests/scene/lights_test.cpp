@@ -23,6 +23,14 @@ TEST(Lights, are_the_emitting_triangles_with_area_by_power) {
   EXPECT_EQ(lights.cumulative.back(), 1);
 }
 
+TEST(Lights, what_a_texture_makes_shine_is_left_to_paths) {
+  test::Triangles triangles;
+  triangles.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  Material material = test::diffuse(1, 1);
+  material.set_map(MapSlot::emission, {.texture = 0});
+  EXPECT_TRUE(make_emissive_triangles(triangles.mesh, {material}).empty());
+}
+
 TEST(Lights, a_scene_that_does_not_emit_has_none) {
   test::Triangles triangles;
   triangles.add_box(Vec3f(0), Vec3f(1));

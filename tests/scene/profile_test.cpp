@@ -24,6 +24,29 @@ TEST(SceneProfile, is_plain_until_a_surface_varies) {
   EXPECT_FALSE(make_profile(scene).is_plain());
 }
 
+TEST(SceneProfile, is_plain_only_where_all_is_diffuse_and_opaque) {
+  test::Triangles triangles;
+  triangles.add_sphere({0, 0, 0}, 1, 1, 0);
+  Material metal = test::diffuse(0.5);
+  metal.scattering.metallic = 1;
+  Material veil = test::diffuse(0.5);
+  veil.opacity = 0.5f;
+  for (const Material& material : {metal, veil}) {
+    const World world = test::make_world(triangles, {material}, Vec3d(1));
+    EXPECT_FALSE(make_profile(*world.scene).is_plain());
+  }
+}
+
+TEST(SceneProfile, what_a_texture_makes_shine_emits) {
+  test::Triangles triangles;
+  triangles.add_sphere({0, 0, 0}, 1, 1, 0);
+  Material screen = test::diffuse(0.5, 1);
+  screen.set_map(MapSlot::emission, {.texture = 0});
+  const World world = test::make_world(triangles, {screen}, Vec3d(1));
+  EXPECT_TRUE(world.scene->lights->empty());
+  EXPECT_TRUE(make_profile(*world.scene).has_emissive_triangles);
+}
+
 TEST(SceneProfile, whatever_a_scene_has_is_not_listed_as_skipped) {
   const size_t all = skipped_work(make_profile(scene_of(0))).size();
   EXPECT_EQ(skipped_work(make_profile(scene_of(3))).size(), all - 1);

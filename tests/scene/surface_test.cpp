@@ -122,9 +122,9 @@ TEST(Surface, vertex_colours_are_interpolated_and_multiply_the_albedo) {
   triangles.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   triangles.mesh.colors = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const World world = test::make_world(triangles, {test::diffuse(0.5)}, Vec3d(1));
-  const Vec3d albedo =
-      surface_at(*world.scene, {.t = 1, .u = 0.25, .v = 0.5, .primitive = 0}, {0, 0, -1}).albedo;
-  EXPECT_EQ(albedo, Vec3d(0.125, 0.125, 0.25));
+  const Surface surface =
+      surface_at(*world.scene, {.t = 1, .u = 0.25, .v = 0.5, .primitive = 0}, {0, 0, -1});
+  EXPECT_EQ(surface.scattering.base_color, Vec3f(0.125f, 0.125f, 0.25f));
 }
 
 TEST(Surface, a_texture_multiplies_the_albedo_where_all_corners_have_coordinates) {
@@ -133,17 +133,17 @@ TEST(Surface, a_texture_multiplies_the_albedo_where_all_corners_have_coordinates
   triangles.mesh.texcoords = {{0.5f, 0.5f}};
   triangles.mesh.texcoord_indices = {{0, 0, 0}, {0, no_index, 0}};
   Material material = test::diffuse(0.5);
-  material.diffuse_texture = 0;
+  material.set_map(MapSlot::base_color, {.texture = 0});
   World world = test::make_world(triangles, {material}, Vec3d(1));
   Scene scene = *world.scene;
   scene.textures = std::make_shared<std::vector<Texture>>(
-      std::vector<Texture>{{.width = 1, .height = 1, .texels = {Vec3f(0.5f, 1, 4)}}});
+      std::vector<Texture>{make_texture(1, 1, {Vec3f(0.5f, 1, 4)})});
   const auto albedo_of = [&](uint32_t primitive) {
     return surface_at(scene, {.t = 1, .u = 0.25, .v = 0.25, .primitive = primitive}, {0, 0, -1})
-        .albedo;
+        .scattering.base_color;
   };
-  EXPECT_EQ(albedo_of(0), Vec3d(0.25, 0.5, 1));  // never more than arrives
-  EXPECT_EQ(albedo_of(1), Vec3d(0.5));
+  EXPECT_EQ(albedo_of(0), Vec3f(0.25f, 0.5f, 1));  // never more than arrives
+  EXPECT_EQ(albedo_of(1), Vec3f(0.5f));
 }
 
 }  // namespace

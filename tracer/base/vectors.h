@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace tracer {
 
@@ -18,6 +19,7 @@ using Vec2d = glm::dvec2;
 using Vec3f = glm::vec3;
 using Vec3d = glm::dvec3;
 using Vec3u = glm::uvec3;
+using Vec4f = glm::vec4;
 
 inline bool is_finite(const Vec3f& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);

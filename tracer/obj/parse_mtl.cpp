@@ -2,45 +2,13 @@
 #include "tracer/obj/parse_mtl.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 
+#include "tracer/obj/mtl_keywords.h"
 #include "tracer/obj/text_cursor.h"
 
 namespace tracer {
 namespace {
-
-/// Options of a texture map and how many words follow each; numbers after the first may be missing.
-struct MapOption {
-  std::string_view name;
-  int word_count;
-};
-constexpr std::array map_options{
-    MapOption{"-blendu", 1}, MapOption{"-blendv", 1},     MapOption{"-boost", 1},
-    MapOption{"-mm", 2},     MapOption{"-o", 3},          MapOption{"-s", 3},
-    MapOption{"-t", 3},      MapOption{"-texres", 1},     MapOption{"-clamp", 1},
-    MapOption{"-bm", 1},     MapOption{"-imfchan", 1},    MapOption{"-type", 1},
-    MapOption{"-cc", 1},     MapOption{"-colorspace", 1},
-};
-
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return result;
-}
-
-/// As the format writes it, whatever case the file has; empty for what is passed over.
-std::string known_keyword(std::string_view written) {
-  constexpr std::array<std::string_view, 10> known{"newmtl", "Kd", "Ks", "Ke",    "Ns",
-                                                   "Ni",     "d",  "Tr", "illum", "map_Kd"};
-  const auto found = std::find_if(known.begin(), known.end(), [&](std::string_view keyword) {
-    return lower_case(keyword) == lower_case(written);
-  });
-  return std::string(found == known.end() ? std::string_view() : *found);
-}
 
 class MtlParser {
  public:
@@ -48,125 +16,149 @@ class MtlParser {
 
   MtlFile parse() {
     while (cursor_.next_statement()) {
-      parse_statement(known_keyword(cursor_.token()));
+      const MtlKeyword* keyword = find_mtl_keyword(cursor_.token());
+      if (keyword) parse_statement(*keyword);
       cursor_.finish_statement();
     }
     return std::move(file_);
   }
 
  private:
-  void parse_statement(const std::string& keyword) {
-    if (keyword == "newmtl") {
-      MtlMaterial material;
-      material.name = cursor_.name();
-      file_.materials.push_back(std::move(material));
+  void parse_statement(const MtlKeyword& keyword) {
+    keyword_ = keyword.name;
+    if (keyword.target == MtlTarget(MtlStatement::newmtl)) {
+      file_.materials.emplace_back().name = cursor_.name();
       has_opacity_ = false;
-    } else if (!keyword.empty()) {
-      if (file_.materials.empty()) {
-        warn(keyword + " stands before the first newmtl");
-      } else {
-        parse_value(keyword, file_.materials.back());
-      }
+    } else if (file_.materials.empty()) {
+      warn("stands before the first newmtl", " ");
+    } else {
+      std::visit([&](auto target) { set(target, file_.materials.back()); }, keyword.target);
     }
   }
 
-  void parse_value(const std::string& keyword, MtlMaterial& material) {
-    if (keyword == "Kd") {
-      parse_color(keyword, material.kd);
-    } else if (keyword == "Ks") {
-      parse_color(keyword, material.ks);
-    } else if (keyword == "Ke") {
-      parse_color(keyword, material.ke);
-    } else if (keyword == "Ns") {
-      parse_number(keyword, material.ns);
-    } else if (keyword == "Ni") {
-      parse_number(keyword, material.ni);
-    } else if (keyword == "illum") {
-      parse_illum(material);
-    } else if (keyword == "map_Kd") {
-      parse_map(material);
+  void set(Vec3f MtlMaterial::*color, MtlMaterial& material) {
+    if (const auto parsed = parse_color()) material.*color = *parsed;
+  }
+  void set(std::optional<Vec3f> MtlMaterial::*color, MtlMaterial& material) {
+    if (const auto parsed = parse_color()) material.*color = parsed;
+  }
+  void set(std::optional<float> MtlMaterial::*number, MtlMaterial& material) {
+    if (const auto parsed = parse_number()) material.*number = parsed;
+  }
+  void set(MtlSlot slot, MtlMaterial& material) {
+    MtlMap map;
+    while (!cursor_.at_statement_end() && parse_option(map)) {
+    }
+    map.path = without_quotes(cursor_.name());
+    map.line = cursor_.statement_line();
+    if (map.path.empty()) warn("the path is missing");
+    material.map(slot) = std::move(map);
+  }
+  void set(MtlStatement statement, MtlMaterial& material) {
+    if (statement == MtlStatement::illum) {
+      const auto parsed = parse_number();
+      if (parsed) material.illum = static_cast<int>(std::clamp(*parsed, 0.0f, 10.0f));
     } else {
-      parse_opacity(keyword, material.d);
+      parse_opacity(statement, material.d);
+    }
+  }
+
+  /// d = 1 - Tr; where a material has both, exporters disagree on Tr and d counts.
+  void parse_opacity(MtlStatement statement, float& opacity) {
+    if (!cursor_.at_statement_end() && cursor_.peek_token() == "-halo") cursor_.token();
+    const auto parsed = parse_number();
+    if (!parsed) return;
+    if (statement == MtlStatement::d) {
+      opacity = *parsed;
+      has_opacity_ = true;
+    } else if (!has_opacity_) {
+      opacity = 1 - *parsed;
     }
   }
 
   /// One number stands for all three.
-  void parse_color(const std::string& keyword, Vec3f& color) {
-    Vec3f parsed;
-    if (!parse_number(keyword, parsed.x)) return;
-    parsed.y = parsed.z = parsed.x;
-    if (!cursor_.at_statement_end()) {
-      if (!parse_number(keyword, parsed.y) || !parse_number(keyword, parsed.z)) return;
-    }
-    color = parsed;
+  std::optional<Vec3f> parse_color() {
+    const auto red = parse_number();
+    if (!red) return std::nullopt;
+    if (cursor_.at_statement_end()) return Vec3f(*red);
+    const auto green = parse_number();
+    if (!green) return std::nullopt;
+    const auto blue = parse_number();
+    if (!blue) return std::nullopt;
+    return Vec3f(*red, *green, *blue);
   }
 
-  /// Leaves `number` as it is, and warns, where there is no finite one.
-  bool parse_number(const std::string& keyword, float& number) {
+  /// Warns where there is no finite one.
+  std::optional<float> parse_number() {
     if (cursor_.at_statement_end()) {
-      warn(keyword + ": a number is missing");
-      return false;
+      warn("a number is missing");
+      return std::nullopt;
     }
     const std::string_view token = cursor_.peek_token();
     const std::optional<float> parsed = cursor_.number<float>();
     if (!parsed || !std::isfinite(*parsed)) {
-      warn(keyword + ": " + quote_text(token) + " is not a finite number");
-      return false;
+      warn(quote_text(token) + " is not a finite number");
+      return std::nullopt;
     }
-    number = *parsed;
-    return true;
+    return parsed;
   }
 
-  void parse_illum(MtlMaterial& material) {
-    float number = 0;
-    if (!parse_number("illum", number)) return;
-    material.illum = static_cast<int>(std::clamp(number, 0.0f, 10.0f));
-  }
-
-  /// d = 1 - Tr; where a material has both, exporters disagree on Tr and d counts.
-  void parse_opacity(const std::string& keyword, float& opacity) {
-    if (!cursor_.at_statement_end() && cursor_.peek_token() == "-halo") cursor_.token();
-    float number = 0;
-    if (!parse_number(keyword, number)) return;
-    if (keyword == "d") {
-      opacity = number;
-      has_opacity_ = true;
-    } else if (!has_opacity_) {
-      opacity = 1 - number;
-    }
-  }
-
-  void parse_map(MtlMaterial& material) {
-    while (!cursor_.at_statement_end() && skip_option()) {
-    }
-    material.map_kd = cursor_.name();
-    material.map_kd_line = cursor_.statement_line();
-    if (material.map_kd.empty()) warn("map_Kd: the path is missing");
-  }
-
-  bool skip_option() {
-    const std::string name = lower_case(cursor_.peek_token());
-    const auto option = std::find_if(map_options.begin(), map_options.end(),
-                                     [&](const MapOption& known) { return known.name == name; });
-    if (option == map_options.end()) return false;
+  bool parse_option(MtlMap& map) {
+    const MtlMapOption* known = find_mtl_option(cursor_.peek_token());
+    if (!known) return false;
     cursor_.token();
-    for (int i = 0; i < option->word_count && !cursor_.at_statement_end(); ++i) {
-      if (i == 0) {
-        cursor_.token();
-      } else if (!cursor_.number<float>()) {
-        break;
-      }
+    if (known->option == MtlOption::clamp || known->option == MtlOption::imfchan) {
+      if (!cursor_.at_statement_end()) set_by_word(known->option, cursor_.token(), map);
+    } else {
+      set_by_numbers(*known, map);
     }
     return true;
   }
 
-  void warn(const std::string& what) {
-    file_.warnings.add({path_, cursor_.statement_line(), what});
+  static void set_by_word(MtlOption option, std::string_view word, MtlMap& map) {
+    if (option == MtlOption::clamp) {
+      map.is_clamped = is_same_word(word, "on");
+      return;
+    }
+    for (const std::string_view channel : {"r", "g", "b", "m", "l", "z"}) {
+      if (is_same_word(word, channel)) map.channel = channel[0];
+    }
+  }
+
+  // The first word is passed whatever it is; further ones belong to the option where they are
+  // numbers, else to the path.
+  void set_by_numbers(const MtlMapOption& known, MtlMap& map) {
+    for (int i = 0; i < known.word_count && !cursor_.at_statement_end(); ++i) {
+      const std::optional<float> number = cursor_.number<float>();
+      if (number && std::isfinite(*number)) set_number(known.option, i, *number, map);
+      if (!number && i > 0) return;
+      if (!number) cursor_.token();
+    }
+  }
+
+  static void set_number(MtlOption option, int place, float number, MtlMap& map) {
+    if (option == MtlOption::bm) map.bump_strength = number;
+    if (option == MtlOption::mm) (place == 0 ? map.base : map.gain) = number;
+    if (option == MtlOption::o && place < 2) map.offset[place] = number;
+    if (option == MtlOption::s && place < 2) map.scale[place] = number;
+  }
+
+  static std::string without_quotes(std::string path) {
+    if (path.size() > 1 && path.front() == '"' && path.back() == '"') {
+      path = path.substr(1, path.size() - 2);
+    }
+    return path;
+  }
+
+  void warn(const std::string& what, std::string_view separator = ": ") {
+    file_.warnings.add(
+        {path_, cursor_.statement_line(), std::string(keyword_).append(separator) + what});
   }
 
   TextCursor cursor_;
   const std::string& path_;
   MtlFile file_;
+  std::string_view keyword_;
   bool has_opacity_ = false;
 };
 

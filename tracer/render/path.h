@@ -99,7 +99,7 @@ class PathWavefront {
     }
     recorder_.hit(ray, hit, surface, path.throughput, radiance);
     if (scatterings == settings_.bounces) return end("bounces");
-    if (surface.albedo == Vec3d(0)) return end("absorbed");
+    if (surface.scattering.base_color == Vec3f(0)) return end("absorbed");
     return true;
   }
 
@@ -169,7 +169,8 @@ class PathWavefront {
     const double weight =
         strategy == LightStrategy::light_sampling ? 1 : power_heuristic(light.pdf, scatter_pdf);
     // albedo / pi * cosine is albedo * scatter_pdf.
-    scattered.radiance = surface.albedo * light.radiance * (weight * scatter_pdf / light.pdf);
+    scattered.radiance =
+        Vec3d(surface.scattering.base_color) * light.radiance * (weight * scatter_pdf / light.pdf);
     return true;
   }
 
@@ -192,7 +193,7 @@ class PathWavefront {
       return end("below the surface");
     }
     Vec3d& throughput = path.throughput;
-    throughput *= surface.albedo;
+    throughput *= Vec3d(surface.scattering.base_color);
     path.from = receiver_of(surface);
     path.scatter_pdf = pdf_cosine_hemisphere(glm::dot(direction, surface.shading_normal));
     if (scatterings + 1 >= first_roulette) {

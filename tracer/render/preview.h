@@ -50,7 +50,7 @@ struct EyeLight {
     const auto colour = [](const Ray& ray, const Surface& surface) {
       const Vec3d view = unit_or(Vec3d(ray.direction), Vec3d(0));
       const double cosine = std::abs(glm::dot(surface.shading_normal, view));
-      return surface.albedo * cosine + surface.emission;
+      return Vec3d(surface.scattering.base_color) * cosine + surface.emission;
     };
     colour_first_surfaces(world, block, miss, recorder, colour);
   }

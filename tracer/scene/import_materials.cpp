@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "tracer/scene/import_materials.h"
 
+#include <array>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "tracer/base/file_bytes.h"
-#include "tracer/base/parallel.h"
 #include "tracer/obj/parse_mtl.h"
 #include "tracer/obj/text_cursor.h"
+#include "tracer/scene/import_textures.h"
+#include "tracer/scene/map_material.h"
 
 namespace tracer {
 namespace {
@@ -37,17 +40,28 @@ std::string refusal(const std::string& written) {
          quote_text(file_name_of(written)) + " is not there";
 }
 
-/// A texture that a material asks for, and where it asks.
-struct TextureRequest {
-  std::filesystem::path path;
-  std::string library;
-  int64_t line = 0;
+/// What a library's texture decides here, and how it is to be read.
+struct SlotUse {
+  MtlSlot from;
+  MapSlot to;
+  TextureUse use;
 };
+// Where two decide the same, the later counts: what is made for physically based materials.
+constexpr std::array slot_uses{
+    SlotUse{MtlSlot::kd, MapSlot::base_color, TextureUse::colors},
+    SlotUse{MtlSlot::ke, MapSlot::emission, TextureUse::colors},
+    SlotUse{MtlSlot::d, MapSlot::opacity, TextureUse::numbers},
+    SlotUse{MtlSlot::ks, MapSlot::specular, TextureUse::numbers},
+    SlotUse{MtlSlot::ns, MapSlot::roughness, TextureUse::numbers},
+    SlotUse{MtlSlot::pr, MapSlot::roughness, TextureUse::numbers},
+    SlotUse{MtlSlot::pm, MapSlot::metallic, TextureUse::numbers},
+    SlotUse{MtlSlot::bump, MapSlot::normal, TextureUse::normals},
+    SlotUse{MtlSlot::norm, MapSlot::normal, TextureUse::normals},
+};
+// Stands for the checker until that has a number.
+constexpr uint32_t refused = no_texture - 1;
 
-struct DecodedTexture {
-  Texture texture;
-  std::optional<std::string> fault;
-};
+constexpr std::array unshown_slots{MtlSlot::ps, MtlSlot::disp, MtlSlot::refl};
 
 class MaterialImporter {
  public:
@@ -64,7 +78,7 @@ class MaterialImporter {
       add_material(file_.material_names[i], is_textured[i]);
     }
     warn_of_unknown();
-    decode_textures();
+    read_textures();
     return std::move(result_);
   }
 
@@ -126,43 +140,58 @@ class MaterialImporter {
 
   void add_material(const ObjName& name, bool is_textured) {
     Material material;
-    material.name = name.text;
     if (const Definition* definition = find_definition(name.text)) {
-      copy_values(definition->material, material);
-      if (is_textured && !definition->material.map_kd.empty()) {
-        material.diffuse_texture = request_texture(*definition);
-      }
+      material = map_material(definition->material);
+      if (is_textured) add_maps(*definition, material);
     } else if (!name.text.empty()) {
       if (unknown_count_++ == 0) first_unknown_ = name;
     }
+    material.name = name.text;
     result_.materials.push_back(std::move(material));
   }
 
-  static void copy_values(const MtlMaterial& from, Material& to) {
-    to.diffuse = glm::clamp(from.kd, 0.0f, 1.0f);
-    to.emission = glm::max(from.ke, 0.0f);
-    to.specular = glm::clamp(from.ks, 0.0f, 1.0f);
-    to.shininess = std::max(from.ns, 0.0f);
-    to.ior = from.ni;
-    to.opacity = std::clamp(from.d, 0.0f, 1.0f);
-    to.illum = from.illum;
+  void add_maps(const Definition& definition, Material& material) {
+    for (const SlotUse& use : slot_uses) {
+      const MtlMap& map = definition.material.map(use.from);
+      if (!map.path.empty()) add_map(definition, use, map, material);
+    }
+    for (const MtlSlot slot : unshown_slots) {
+      const MtlMap& map = definition.material.map(slot);
+      const auto place = static_cast<size_t>(slot);
+      if (map.path.empty() || warned_slots_[place]) continue;
+      warned_slots_[place] = true;
+      result_.library_warnings.add(
+          {definition.library, map.line,
+           std::string(keyword_of(slot)) + ": textures of this kind are not shown"});
+    }
   }
 
-  uint32_t request_texture(const Definition& definition) {
-    const std::string& written = definition.material.map_kd;
-    const int64_t line = definition.material.map_kd_line;
-    const auto path = locate(definition.folder, written);
+  // Textures are numbered as they are asked for until all are read.
+  void add_map(const Definition& definition, const SlotUse& use, const MtlMap& map,
+               Material& material) {
+    MaterialMap lookup = map_lookup(map, use.to);
+    const auto path = locate(definition.folder, map.path);
+    const std::string keyword(keyword_of(use.from));
     if (!path) {
-      result_.library_warnings.add({definition.library, line, "map_Kd " + refusal(written)});
-      return no_texture;
+      result_.library_warnings.add(
+          {definition.library, map.line, keyword + ' ' + refusal(map.path)});
+      if (use.use != TextureUse::colors) return;
+      lookup.texture = refused;
+    } else {
+      lookup.texture = request_texture(definition, use.use, *path, map.line, keyword);
     }
-    const auto next = static_cast<uint32_t>(requests_.size());
-    const auto [entry, is_new] = request_indices_.try_emplace(path->string(), next);
-    if (is_new) {
-      requests_.push_back({model_folder_ / *path, definition.library, line});
-      result_.files.push_back(requests_.back().path);
-    }
-    return entry->second;
+    if (use.to == MapSlot::normal) material.normal_strength = map.bump_strength;
+    material.set_map(use.to, lookup);
+    // Where a texture shines, Ke only tints it, and may be missing.
+    if (use.to == MapSlot::emission && material.emission == Vec3f(0)) material.emission = Vec3f(1);
+  }
+
+  uint32_t request_texture(const Definition& definition, TextureUse use,
+                           const std::filesystem::path& path, int64_t line,
+                           const std::string& keyword) {
+    const std::filesystem::path full_path = model_folder_ / path;
+    if (seen_textures_.insert(full_path.string()).second) result_.files.push_back(full_path);
+    return textures_.add({full_path, use, definition.library, line, keyword});
   }
 
   void warn_of_unknown() {
@@ -175,39 +204,20 @@ class MaterialImporter {
     result_.warnings = merged_by_line(result_.warnings, unknown);
   }
 
-  void decode_textures() {
-    progress_.start_stage("reading textures");
-    std::vector<DecodedTexture> decoded(requests_.size());
-    std::atomic<size_t> done{0};
-    parallel_for_each_index(0, requests_.size(), [&](size_t i) {
-      progress_.throw_if_stopped();
-      try {
-        decoded[i].texture = load_texture(requests_[i].path);
-      } catch (const LoadError& error) {
-        decoded[i].fault = error.what();
-      }
-      progress_.set_fraction(static_cast<double>(++done) / static_cast<double>(requests_.size()));
-    });
-    keep_decoded(decoded);
-  }
-
-  /// Textures that cannot be read leave the array, and the materials that name them.
-  void keep_decoded(std::vector<DecodedTexture>& decoded) {
-    std::vector<uint32_t> kept(decoded.size(), no_texture);
-    for (size_t i = 0; i < decoded.size(); ++i) {
-      if (decoded[i].fault) {
-        result_.library_warnings.add(
-            {requests_[i].library, requests_[i].line, "map_Kd: " + *decoded[i].fault});
-        continue;
-      }
-      kept[i] = static_cast<uint32_t>(result_.textures.size());
-      result_.textures.push_back(std::move(decoded[i].texture));
-    }
+  void read_textures() {
+    textures_.read(progress_, result_.library_warnings);
     for (Material& material : result_.materials) {
-      if (material.diffuse_texture != no_texture) {
-        material.diffuse_texture = kept[material.diffuse_texture];
+      material.has_maps = false;
+      for (size_t i = 0; i < map_slot_count; ++i) {
+        const auto slot = static_cast<MapSlot>(i);
+        MaterialMap map = material.map(slot);
+        if (map.empty()) continue;
+        map.texture =
+            map.texture == refused ? textures_.checker() : textures_.index_of(map.texture);
+        material.set_map(slot, map);
       }
     }
+    result_.textures = std::move(textures_.textures());
   }
 
   const std::string model_path_;
@@ -217,8 +227,9 @@ class MaterialImporter {
   ImportedMaterials result_;
   std::unordered_map<std::string, bool> seen_libraries_;
   std::unordered_map<std::string, Definition> definitions_;
-  std::vector<TextureRequest> requests_;
-  std::unordered_map<std::string, uint32_t> request_indices_;
+  std::unordered_set<std::string> seen_textures_;
+  std::array<bool, mtl_slot_count> warned_slots_{};
+  TextureImporter textures_;
   int64_t unknown_count_ = 0;
   ObjName first_unknown_;
 };

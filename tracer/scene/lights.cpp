@@ -27,8 +27,9 @@ EmissiveTriangles make_emissive_triangles(const Mesh& mesh,
   EmissiveTriangles lights;
   double total = 0;
   for (uint32_t i = 0; i < mesh.triangle_count(); ++i) {
-    const double radiance = luminance(Vec3d(materials[mesh.material_of(i)].emission));
-    if (!(radiance > 0)) continue;
+    const Material& material = materials[mesh.material_of(i)];
+    const double radiance = luminance(Vec3d(material.emission));
+    if (!(radiance > 0) || !material.map(MapSlot::emission).empty()) continue;
     const double power = triangle_at(mesh, i).area() * radiance;
     if (!(power > 0) || !std::isfinite(power)) continue;
     total += power;

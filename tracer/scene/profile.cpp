@@ -2,11 +2,28 @@
 #include "tracer/scene/profile.h"
 
 namespace tracer {
+namespace {
+
+bool has_scattering_lobes(const Scene& scene) {
+  return std::any_of(scene.materials->begin(), scene.materials->end(),
+                     [](const Material& material) { return !is_diffuse(material.scattering); });
+}
+
+// Those are not among the lights.
+bool has_shining_textures(const Scene& scene) {
+  return std::any_of(
+      scene.materials->begin(), scene.materials->end(),
+      [](const Material& material) { return !material.map(MapSlot::emission).empty(); });
+}
+
+}  // namespace
 
 SceneProfile make_profile(const Scene& scene) {
   return {.has_surface_colors = !scene.mesh->colors.empty() || !scene.textures->empty(),
           .has_smooth_normals = scene.shading == Shading::smooth,
-          .has_emissive_triangles = !scene.lights->empty()};
+          .has_emissive_triangles = !scene.lights->empty() || has_shining_textures(scene),
+          .has_scattering_lobes = has_scattering_lobes(scene),
+          .has_alpha = !is_opaque(scene)};
 }
 
 std::vector<SkippedWork> skipped_work(const SceneProfile& profile) {

@@ -4,26 +4,19 @@
 #include "tracer/base/directions.h"
 #include "tracer/geometry/ray.h"
 #include "tracer/scene/flat_surface-inl.h"
+#include "tracer/scene/surface_maps.h"
 
 namespace tracer {
 namespace {
 
-Vec3d diffuse_color(const Scene& scene, const Material& material, const Hit& hit) {
-  const Mesh& mesh = *scene.mesh;
-  Vec3d color(material.diffuse);
-  if (!mesh.colors.empty()) {
-    const Vec3u& corner = mesh.triangles[hit.primitive];
-    const Triangle colors{Vec3d(mesh.colors[corner.x]), Vec3d(mesh.colors[corner.y]),
-                          Vec3d(mesh.colors[corner.z])};
-    color *= colors.at(hit.u, hit.v);
-  }
-  if (material.diffuse_texture == no_texture || mesh.texcoord_indices.empty()) return color;
-  const Vec3u& corner = mesh.texcoord_indices[hit.primitive];
-  if (corner.x == no_index || corner.y == no_index || corner.z == no_index) return color;
-  const Vec2d uv = (1 - hit.u - hit.v) * Vec2d(mesh.texcoords[corner.x]) +
-                   hit.u * Vec2d(mesh.texcoords[corner.y]) +
-                   hit.v * Vec2d(mesh.texcoords[corner.z]);
-  return color * Vec3d(eval_texture((*scene.textures)[material.diffuse_texture], Vec2f(uv)));
+/// Colours of corners multiply the base colour.
+Vec3f base_color(const Mesh& mesh, const Material& material, const Hit& hit) {
+  const Vec3f& color = material.scattering.base_color;
+  if (mesh.colors.empty()) return color;
+  const Vec3u& corner = mesh.triangles[hit.primitive];
+  const Triangle colors{Vec3d(mesh.colors[corner.x]), Vec3d(mesh.colors[corner.y]),
+                        Vec3d(mesh.colors[corner.z])};
+  return Vec3f(glm::clamp(Vec3d(color) * colors.at(hit.u, hit.v), 0.0, 1.0));
 }
 
 /// The interpolated normal on the side of `geometric_normal`, or that where there is none.
@@ -50,7 +43,8 @@ double clearance_of(const Triangle& triangle, const Vec3d& normal) {
   return HWY_NAMESPACE::clearance_of(corners_of(triangle), components(normal));
 }
 
-Surface surface_at(const Scene& scene, const Hit& hit, const Vec3d& ray_direction) {
+Surface surface_at(const Scene& scene, const Hit& hit, const Vec3d& ray_direction,
+                   double footprint) {
   const Triangle triangle = triangle_at(*scene.mesh, hit.primitive);
   const Material& material = (*scene.materials)[scene.mesh->material_of(hit.primitive)];
   using namespace HWY_NAMESPACE;
@@ -61,8 +55,10 @@ Surface surface_at(const Scene& scene, const Hit& hit, const Vec3d& ray_directio
   surface.geometric_normal = joined(normal);
   surface.clearance = clearance;
   surface.shading_normal = shading_normal(scene, hit, surface.geometric_normal);
-  surface.albedo = glm::clamp(diffuse_color(scene, material, hit), 0.0, 1.0);
+  surface.scattering = material.scattering;
+  surface.scattering.base_color = base_color(*scene.mesh, material, hit);
   surface.emission = Vec3d(material.emission);
+  if (material.has_maps) apply_maps(scene, material, hit, triangle, footprint, surface);
   surface.triangle = hit.primitive;
   return surface;
 }

@@ -3,29 +3,14 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "tracer/geometry/mesh.h"
 #include "tracer/scene/light_tree.h"
+#include "tracer/scene/material.h"
 #include "tracer/scene/texture.h"
 
 namespace tracer {
-
-inline constexpr uint32_t no_texture = 0xffffffffu;
-
-struct Material {
-  std::string name;
-  Vec3f diffuse{0.8f};                    // reflectance, linear RGB in [0, 1]
-  Vec3f emission{0.0f};                   // radiance, linear RGB, from both sides
-  uint32_t diffuse_texture = no_texture;  // multiplies `diffuse`
-  // Kept for the light of later: Ks, Ns, Ni, d, illum as the MTL has them.
-  Vec3f specular{0.0f};
-  float shininess = 0;
-  float ior = 1;
-  float opacity = 1;
-  int illum = 1;
-};
 
 enum class Shading { flat, smooth };
 
@@ -78,12 +63,21 @@ struct Surface {
   Vec3d position;          // in double, from barycentric weights, a hair off the edges
   Vec3d geometric_normal;  // unit length, towards the side that the ray came from
   Vec3d shading_normal;    // unit length, same side
-  Vec3d albedo;            // linear RGB in [0, 1]
-  Vec3d emission;          // radiance towards the ray
-  double clearance = 0;    // of the triangle along geometric_normal
+  Principled scattering;
+  Vec3d emission;        // radiance towards the ray
+  double clearance = 0;  // of the triangle along geometric_normal
   uint32_t triangle = 0;
 };
-Surface surface_at(const Scene& scene, const Hit& hit, const Vec3d& ray_direction);
+/// `footprint` is the width of the ray where it hits, as that of a cone: textures are taken as
+/// finely as that; 0 is finest.
+Surface surface_at(const Scene& scene, const Hit& hit, const Vec3d& ray_direction,
+                   double footprint = 0);
+
+/// The share of rays that meet the surface here, in [0, 1]; others pass as if it were not there.
+double opacity_at(const Scene& scene, const Hit& hit);
+
+/// Whether every ray that hits, meets: opacity_at is 1 everywhere.
+bool is_opaque(const Scene& scene);
 
 /// The float origin of a ray that leaves the surface towards the side of geometric_normal.
 Vec3f offset_origin(const Surface& surface);
