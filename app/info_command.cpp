@@ -36,7 +36,7 @@ Json describe_materials(const tracer::Scene& scene) {
     materials.push_back({{"name", material.name},
                          {"used", triangle_counts[i] > 0},
                          {"triangles", triangle_counts[i]},
-                         {"diffuse", to_json(tracer::Vec3d(material.diffuse))},
+                         {"diffuse", to_json(tracer::Vec3d(material.scattering.base_color))},
                          {"emission", to_json(tracer::Vec3d(material.emission))},
                          {"textured", material.diffuse_texture != tracer::no_texture}});
   }

@@ -55,11 +55,11 @@ TEST(ImportObj, joins_mesh_materials_and_textures) {
 
   const std::vector<Material>& materials = *imported.scene.materials;
   ASSERT_EQ(materials.size(), 3u);
-  EXPECT_EQ(materials[0].diffuse, Vec3f(0.8f));
+  EXPECT_EQ(materials[0].scattering.base_color, Vec3f(0.8f));
   EXPECT_EQ(materials[1].name, "red");
-  EXPECT_EQ(materials[1].diffuse, Vec3f(1, 0, 0));
+  EXPECT_EQ(materials[1].scattering.base_color, Vec3f(1, 0, 0));
   EXPECT_EQ(materials[1].diffuse_texture, 0u);
-  EXPECT_EQ(materials[2].diffuse, Vec3f(1, 0, 0.5f));
+  EXPECT_EQ(materials[2].scattering.base_color, Vec3f(1, 0, 0.5f));
   EXPECT_EQ(materials[2].emission, Vec3f(3, 2, 1));
   EXPECT_EQ(materials[2].diffuse_texture, no_texture);
   ASSERT_EQ(imported.scene.textures->size(), 1u);
@@ -93,7 +93,7 @@ TEST(ImportObj, a_missing_library_is_a_warning_and_its_materials_are_grey) {
   EXPECT_EQ(warning(imported, 1),
             path.string() +
                 ":10: material 'a' and 2 more: in no material library, shown in the default grey");
-  EXPECT_EQ(imported.scene.materials->at(3).diffuse, Vec3f(0.8f));
+  EXPECT_EQ(imported.scene.materials->at(3).scattering.base_color, Vec3f(0.8f));
 }
 
 TEST(ImportObj, libraries_are_read_in_order_and_the_first_definition_counts) {
@@ -104,8 +104,8 @@ TEST(ImportObj, libraries_are_read_in_order_and_the_first_definition_counts) {
       folder.write("x.obj", "mtllib a.mtl my b.mtl\nmtllib a.mtl\n" + square +
                                 "usemtl m #comment\nf 1 2 3\nusemtl Material #2\nf 1 2 3\n"));
   EXPECT_EQ(imported.warnings.count(), 0) << warning(imported, 0);
-  EXPECT_EQ(imported.scene.materials->at(1).diffuse, Vec3f(1, 0, 0));
-  EXPECT_EQ(imported.scene.materials->at(2).diffuse, Vec3f(0, 0, 1));
+  EXPECT_EQ(imported.scene.materials->at(1).scattering.base_color, Vec3f(1, 0, 0));
+  EXPECT_EQ(imported.scene.materials->at(2).scattering.base_color, Vec3f(0, 0, 1));
 }
 
 TEST(ImportObj, tells_the_files_it_depends_on_also_those_that_are_missing) {
@@ -132,7 +132,7 @@ TEST(ImportObj, paths_that_leave_the_models_folder_are_refused) {
     EXPECT_NE(warning(imported, 0).find("is refused: paths must stay in the model's folder"),
               std::string::npos)
         << warning(imported, 0);
-    EXPECT_EQ(imported.scene.materials->at(1).diffuse, Vec3f(0.8f));
+    EXPECT_EQ(imported.scene.materials->at(1).scattering.base_color, Vec3f(0.8f));
   }
   folder.write("model/a.mtl", "newmtl m\nmap_Kd ../white.ppm\n");
   const ImportedScene imported =
@@ -157,7 +157,7 @@ TEST(ImportObj, a_file_of_the_name_stands_in_for_a_path_of_another_machine) {
   const ImportedScene imported =
       import(folder.write("x.obj", "mtllib D:\\b.mtl\n" + square + "usemtl m\nf 1 2 3\n"));
   EXPECT_EQ(imported.warnings.count(), 0) << warning(imported, 0);
-  EXPECT_EQ(imported.scene.materials->at(1).diffuse, Vec3f(1, 0, 0));
+  EXPECT_EQ(imported.scene.materials->at(1).scattering.base_color, Vec3f(1, 0, 0));
 }
 
 TEST(ImportObj, warnings_name_their_lines_and_stand_in_their_order) {

@@ -123,7 +123,8 @@ TEST(Surface, vertex_colours_are_interpolated_and_multiply_the_albedo) {
   triangles.mesh.colors = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const World world = test::make_world(triangles, {test::diffuse(0.5)}, Vec3d(1));
   const Vec3d albedo =
-      surface_at(*world.scene, {.t = 1, .u = 0.25, .v = 0.5, .primitive = 0}, {0, 0, -1}).albedo;
+      surface_at(*world.scene, {.t = 1, .u = 0.25, .v = 0.5, .primitive = 0}, {0, 0, -1})
+          .scattering.base_color;
   EXPECT_EQ(albedo, Vec3d(0.125, 0.125, 0.25));
 }
 
@@ -140,7 +141,7 @@ TEST(Surface, a_texture_multiplies_the_albedo_where_all_corners_have_coordinates
       std::vector<Texture>{{.width = 1, .height = 1, .texels = {Vec3f(0.5f, 1, 4)}}});
   const auto albedo_of = [&](uint32_t primitive) {
     return surface_at(scene, {.t = 1, .u = 0.25, .v = 0.25, .primitive = primitive}, {0, 0, -1})
-        .albedo;
+        .scattering.base_color;
   };
   EXPECT_EQ(albedo_of(0), Vec3d(0.25, 0.5, 1));  // never more than arrives
   EXPECT_EQ(albedo_of(1), Vec3d(0.5));

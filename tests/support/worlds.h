@@ -25,7 +25,7 @@ struct Triangles {
 
 inline Material diffuse(double albedo, double emission = 0) {
   Material material;
-  material.diffuse = Vec3f(static_cast<float>(albedo));
+  material.scattering.base_color = Vec3f(static_cast<float>(albedo));
   material.emission = Vec3f(static_cast<float>(emission));
   return material;
 }

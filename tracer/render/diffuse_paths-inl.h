@@ -123,14 +123,14 @@ class DiffusePaths {
         }
         radiance += throughput * Vec3d(material.emission) * weight;
       }
-      if (scatterings == settings_.bounces || material.diffuse == Vec3f(0)) continue;
+      if (scatterings == settings_.bounces || material.scattering.base_color == Vec3f(0)) continue;
       samples_[kept] = sample;
       throughput_.set(kept, throughput);
       triangle_.set(kept, mesh_, hit.primitive);
       u_[kept] = hit.u;
       v_[kept] = hit.v;
       direction_.set(kept, rays_[i].direction);
-      albedo_.set(kept, material.diffuse);
+      albedo_.set(kept, material.scattering.base_color);
       ++kept;
     }
     count_ = kept;

@@ -38,7 +38,7 @@ void colour_first_surfaces(const World& world, const SampleBlock& block, const V
   }
 }
 
-/// Albedo times the cosine between view and shading normal, as if lit by a lamp on the camera,
+/// Base colour times the cosine between view and shading normal, as if lit by a lamp on the camera,
 /// plus emission; the sky where nothing is hit.
 struct EyeLight {
   template <class Recorder>
@@ -47,7 +47,7 @@ struct EyeLight {
     const auto colour = [](const Ray& ray, const Surface& surface) {
       const Vec3d view = unit_or(Vec3d(ray.direction), Vec3d(0));
       const double cosine = std::abs(glm::dot(surface.shading_normal, view));
-      return surface.albedo * cosine + surface.emission;
+      return Vec3d(surface.scattering.base_color) * cosine + surface.emission;
     };
     colour_first_surfaces(world, block, world.sky, recorder, colour);
   }

@@ -33,7 +33,7 @@ void TextRecorder::hit(const Ray& ray, const Hit& hit, const Surface& surface,
                        const Vec3d& throughput, const Vec3d& radiance) {
   append(text_, "{}  triangle {}  t {:.9g}  position {}  normal {}  albedo {}", vertex_count_++,
          hit.primitive, hit.t * glm::length(Vec3d(ray.direction)), place(surface.position),
-         words(surface.shading_normal), words(surface.albedo));
+         words(surface.shading_normal), words(surface.scattering.base_color));
   if (surface.emission != Vec3d(0)) append(text_, "  emission {}", words(surface.emission));
   append(text_, "  throughput {}  radiance {}\n", words(throughput), words(radiance));
 }

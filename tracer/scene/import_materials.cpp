@@ -139,7 +139,7 @@ class MaterialImporter {
   }
 
   static void copy_values(const MtlMaterial& from, Material& to) {
-    to.diffuse = glm::clamp(from.kd, 0.0f, 1.0f);
+    to.scattering.base_color = glm::clamp(from.kd, 0.0f, 1.0f);
     to.emission = glm::max(from.ke, 0.0f);
     to.specular = glm::clamp(from.ks, 0.0f, 1.0f);
     to.shininess = std::max(from.ns, 0.0f);

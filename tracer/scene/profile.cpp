@@ -6,7 +6,8 @@ namespace tracer {
 SceneProfile make_profile(const Scene& scene) {
   return {.has_surface_colors = !scene.mesh->colors.empty() || !scene.textures->empty(),
           .has_smooth_normals = scene.shading == Shading::smooth,
-          .has_emissive_triangles = !scene.lights->empty()};
+          .has_emissive_triangles = !scene.lights->empty(),
+          .features = scene.features};
 }
 
 std::vector<SkippedWork> skipped_work(const SceneProfile& profile) {
@@ -16,6 +17,14 @@ std::vector<SkippedWork> skipped_work(const SceneProfile& profile) {
   }
   if (!profile.has_smooth_normals) {
     skipped.push_back({"normals at each hit", "triangles are shaded flat"});
+  }
+  const auto lacks = [&](BsdfFeatures part) { return !has(profile.features, part); };
+  if (lacks(BsdfFeatures::reflection)) {
+    skipped.push_back({"highlights", "no metal, no dielectric that reflects"});
+  }
+  if (lacks(BsdfFeatures::layers)) skipped.push_back({"layers", "no clear coat, no sheen"});
+  if (lacks(BsdfFeatures::transmission)) {
+    skipped.push_back({"light through surfaces", "nothing transmits"});
   }
   if (profile.is_plain()) {
     skipped.push_back({"shading one path at a time", "all surfaces are plain"});

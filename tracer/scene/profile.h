@@ -13,9 +13,12 @@ struct SceneProfile {
   bool has_surface_colors = false;  // textures or colours of vertices, not one a material
   bool has_smooth_normals = false;  // not one a triangle
   bool has_emissive_triangles = false;
+  BsdfFeatures features = BsdfFeatures::diffuse;  // of all surfaces
 
-  /// All surfaces are flat and of one colour a material.
-  bool is_plain() const { return !has_surface_colors && !has_smooth_normals; }
+  /// All surfaces are flat, diffuse and of one colour a material.
+  bool is_plain() const {
+    return !has_surface_colors && !has_smooth_normals && features == BsdfFeatures::diffuse;
+  }
 };
 
 SceneProfile make_profile(const Scene& scene);

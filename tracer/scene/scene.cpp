@@ -8,9 +8,9 @@
 namespace tracer {
 namespace {
 
-Vec3d diffuse_color(const Scene& scene, const Material& material, const Hit& hit) {
+Vec3d base_color(const Scene& scene, const Material& material, const Hit& hit) {
   const Mesh& mesh = *scene.mesh;
-  Vec3d color(material.diffuse);
+  Vec3d color(material.scattering.base_color);
   if (!mesh.colors.empty()) {
     const Vec3u& corner = mesh.triangles[hit.primitive];
     const Triangle colors{Vec3d(mesh.colors[corner.x]), Vec3d(mesh.colors[corner.y]),
@@ -53,6 +53,14 @@ HWY_NAMESPACE::Corners<double> corners_of(const Triangle& triangle) {
 
 }  // namespace
 
+BsdfFeatures features_of(const std::vector<Material>& materials) {
+  BsdfFeatures features = BsdfFeatures::diffuse;
+  for (const Material& material : materials) {
+    features = features | features_of(material.scattering);
+  }
+  return features;
+}
+
 Triangle triangle_at(const Mesh& mesh, uint32_t triangle) {
   const Vec3u& corner = mesh.triangles[triangle];
   return {Vec3d(mesh.positions[corner.x]), Vec3d(mesh.positions[corner.y]),
@@ -73,14 +81,20 @@ Surface surface_at(const Scene& scene, const Hit& hit, const Vec3d& ray_directio
   surface.geometric_normal = joined(normal);
   surface.clearance = clearance;
   surface.shading_normal = shading_normal(scene, hit, surface.geometric_normal);
-  surface.albedo = glm::clamp(diffuse_color(scene, material, hit), 0.0, 1.0);
+  surface.scattering = material.scattering;
+  surface.scattering.base_color = Vec3f(glm::clamp(base_color(scene, material, hit), 0.0, 1.0));
   surface.emission = Vec3d(material.emission);
   surface.triangle = hit.primitive;
+  surface.is_front = glm::dot(triangle.area_normal(), surface.geometric_normal) >= 0;
   return surface;
 }
 
 Vec3f offset_origin(const Surface& surface) {
   return Vec3f(surface.position + surface.clearance * surface.geometric_normal);
+}
+
+Vec3f offset_origin_behind(const Surface& surface) {
+  return Vec3f(surface.position - surface.clearance * surface.geometric_normal);
 }
 
 }  // namespace tracer

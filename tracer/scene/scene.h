@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tracer/geometry/mesh.h"
+#include "tracer/scene/bsdf_features.h"
 #include "tracer/scene/texture.h"
 
 namespace tracer {
@@ -15,9 +16,9 @@ inline constexpr uint32_t no_texture = 0xffffffffu;
 
 struct Material {
   std::string name;
-  Vec3f diffuse{0.8f};                    // reflectance, linear RGB in [0, 1]
+  Principled scattering;
   Vec3f emission{0.0f};                   // radiance, linear RGB, from both sides
-  uint32_t diffuse_texture = no_texture;  // multiplies `diffuse`
+  uint32_t diffuse_texture = no_texture;  // multiplies the base colour
   // Kept for the light of later: Ks, Ns, Ni, d, illum as the MTL has them.
   Vec3f specular{0.0f};
   float shininess = 0;
@@ -25,6 +26,9 @@ struct Material {
   float opacity = 1;
   int illum = 1;
 };
+
+/// What any of them has.
+BsdfFeatures features_of(const std::vector<Material>& materials);
 
 enum class Shading { flat, smooth };
 
@@ -46,6 +50,7 @@ struct Scene {
   std::shared_ptr<const std::vector<Material>> materials;  // at least one
   std::shared_ptr<const std::vector<Texture>> textures;
   std::shared_ptr<const EmissiveTriangles> lights;
+  BsdfFeatures features = BsdfFeatures::all;  // none beyond these
   Shading shading = Shading::flat;
   // Smooth shading only: one unit normal a corner by index, as in Mesh; zero where the triangles
   // around a position cancel out, and the geometric normal stands in.
@@ -76,14 +81,17 @@ struct Surface {
   Vec3d position;          // in double, from barycentric weights, a hair off the edges
   Vec3d geometric_normal;  // unit length, towards the side that the ray came from
   Vec3d shading_normal;    // unit length, same side
-  Vec3d albedo;            // linear RGB in [0, 1]
-  Vec3d emission;          // radiance towards the ray
-  double clearance = 0;    // of the triangle along geometric_normal
+  Principled scattering;
+  Vec3d emission;        // radiance towards the ray
+  double clearance = 0;  // of the triangle along geometric_normal
   uint32_t triangle = 0;
+  bool is_front = true;  // geometric_normal is the triangle's right-handed one
 };
 Surface surface_at(const Scene& scene, const Hit& hit, const Vec3d& ray_direction);
 
 /// The float origin of a ray that leaves the surface towards the side of geometric_normal.
 Vec3f offset_origin(const Surface& surface);
+/// Of one that goes on through it.
+Vec3f offset_origin_behind(const Surface& surface);
 
 }  // namespace tracer
