@@ -90,6 +90,13 @@ tracer::Vec2i parse_pixel(const std::string& text) {
   return *pixel;
 }
 
+tracer::SunPosition parse_sun(const std::string& text) {
+  const size_t comma = text.find(',');
+  if (comma == std::string::npos) fail(text, "ELEVATION,AZIMUTH in degrees such as 30,120");
+  return {parse_number(text.substr(0, comma), 0, 90),
+          parse_number(text.substr(comma + 1), -360, 360)};
+}
+
 CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& value_name,
                        const std::string& help, std::function<void(const std::string&)> read) {
   const std::string option_name = names.substr(names.find_last_of(',') + 1);
@@ -115,6 +122,19 @@ CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string
     read(text);
   };
   return add_value(app, names, value_name, help, read_path);
+}
+
+void add_environment(CLI::App& app, EnvironmentSource& environment, const std::string& group) {
+  CLI::Option* file =
+      add_path(app, "--environment", "FILE", "a sky of all directions, .hdr or .exr",
+               [&](const auto& path) { environment.file = path; });
+  CLI::Option* sun =
+      add_value(app, "--sun", "ELEVATION,AZIMUTH", "a clear sky and its sun, in degrees",
+                [&](const std::string& text) { environment.sun = parse_sun(text); });
+  sun->excludes(file);
+  if (group.empty()) return;
+  file->group(group);
+  sun->group(group);
 }
 
 }  // namespace app

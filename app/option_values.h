@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/environment_source.h"
 #include "tracer/base/fields.h"
 #include "tracer/base/vectors.h"
 
@@ -31,6 +32,8 @@ tracer::Vec3d parse_vec3(const std::string& text);     // "x,y,z"
 tracer::Vec3d parse_sky(const std::string& text);      // "r,g,b", each 0 to 1e30
 tracer::Vec2i parse_size_px(const std::string& text);  // "1280x720"
 tracer::Vec2i parse_pixel(const std::string& text);    // "x,y", none below 0
+/// "30,120": degrees above the horizon, 0 to 90, and of azimuth, -360 to 360.
+tracer::SunPosition parse_sun(const std::string& text);
 
 /// Calls `read(text)` with the option's value; its std::invalid_argument names the option.
 CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& value_name,
@@ -39,6 +42,9 @@ CLI::Option* add_value(CLI::App& app, const std::string& names, const std::strin
 CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& value_name,
                       const std::string& help,
                       std::function<void(const std::filesystem::path&)> read);
+
+/// --environment and --sun.
+void add_environment(CLI::App& app, EnvironmentSource& environment, const std::string& group);
 
 /// One option for each field of a settings struct.
 template <class Settings>

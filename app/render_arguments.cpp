@@ -141,6 +141,7 @@ int run_render(const std::vector<std::string>& arguments) {
   add_output(parser.options(), options);
   add_picture(parser.options(), options);
   add_camera(parser.options(), options);
+  add_environment(parser.options(), options.environment, "Camera");
   add_tree(parser.options(), options);
   if (parser.parse(arguments) == Parsed::help_was_printed) return exit_code::success;
   if (!options.output && !options.pixel) {

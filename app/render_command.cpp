@@ -124,6 +124,8 @@ class RenderJob {
     if (options_.pixel) check_pixel(*options_.pixel, report_.view.size_px);
     world_.camera = make_camera_frame(report_.view.camera, report_.view.size_px, mesh.origin);
     world_.sky = report_.view.sky;
+    world_.environment = load_environment(report_.view.environment);
+    world_.zenith = tracer::zenith_of(report_.view.camera);
   }
 
   void describe_pixel() {

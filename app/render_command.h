@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/environment_source.h"
 #include "tracer/bvh/build.h"
 #include "tracer/render/integrator.h"
 #include "tracer/scene/camera.h"
@@ -29,6 +30,7 @@ struct RenderOptions {
   std::optional<tracer::Vec3d> up;
   std::optional<double> fov_degrees;
   std::optional<tracer::Vec3d> sky;
+  EnvironmentSource environment;
 
   const tracer::Builder* builder = &tracer::builders().front();  // nullptr: brute force
   const tracer::Layout* layout = &tracer::layouts().front();

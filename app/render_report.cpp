@@ -40,6 +40,11 @@ Json used_settings(const RenderOptions& options, const RenderReport& report) {
                    {"layout", options.layout->name},
                    {"skips", options.render.skips},
                    {"threads", options.thread_count}};
+  const EnvironmentSource& environment = report.view.environment;
+  if (environment.file) settings["environment"] = environment.file->filename().string();
+  if (environment.sun) {
+    settings["sun"] = {environment.sun->elevation_degrees, environment.sun->azimuth_degrees};
+  }
   const auto add = [&](const auto& value, const auto& field) { settings[field.name] = value; };
   for_each_field(options.build, add);
   for_each_field(options.render, add);
@@ -73,11 +78,16 @@ Json stats(const RenderOptions& options, const tracer::ImportedScene& imported,
 
 std::map<std::string, std::string> picture_metadata(const RenderOptions& options,
                                                     const RenderReport& report) {
-  return {{"Software", "boxwood " BOXWOOD_VERSION},
-          {"Model", options.model.filename().string()},
-          {"Samples", std::to_string(report.whole_sample_count)},
-          {"Seed", std::to_string(options.render.seed)},
-          {"Integrator", std::string(options.integrator->name)}};
+  std::map<std::string, std::string> metadata{
+      {"Software", "boxwood " BOXWOOD_VERSION},
+      {"Model", options.model.filename().string()},
+      {"Samples", std::to_string(report.whole_sample_count)},
+      {"Seed", std::to_string(options.render.seed)},
+      {"Integrator", std::string(options.integrator->name)}};
+  if (options.render.clamp > 0) {
+    metadata["Clamp"] = fmt::format("indirect light to {}: biased", options.render.clamp);
+  }
+  return metadata;
 }
 
 std::string summary(const RenderOptions& options, const RenderReport& report) {

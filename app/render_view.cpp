@@ -53,6 +53,7 @@ ResolvedView resolve_view(const RenderOptions& options, const tracer::Mesh& mesh
   view.camera.up = options.up.value_or(view.camera.up);
   view.camera.fov_degrees = options.fov_degrees.value_or(view.camera.fov_degrees);
   view.sky = options.sky.value_or(saved && saved->sky ? *saved->sky : tracer::World{}.sky);
+  view.environment = options.environment;
   check(view, mesh.origin);
   return view;
 }

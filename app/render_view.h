@@ -12,6 +12,7 @@ struct ResolvedView {
   tracer::Camera camera;
   tracer::Vec2i size_px;
   tracer::Vec3d sky;
+  EnvironmentSource environment{};
 };
 
 /// The view that was asked for: the options, else the view file that they name or that lies beside

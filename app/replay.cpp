@@ -11,6 +11,10 @@ std::string text_of(const tracer::Vec3d& v) {
   return fmt::format("{},{},{}", v.x, v.y, v.z);
 }
 
+std::string text_of(const tracer::SunPosition& sun) {
+  return fmt::format("{},{}", sun.elevation_degrees, sun.azimuth_degrees);
+}
+
 std::string quoted(const std::string& argument) {
   const char* const plain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,=+:@%";
@@ -41,6 +45,10 @@ std::vector<std::string> replay_arguments(const std::filesystem::path& model,
       "--sky=" + text_of(view.sky),
       fmt::format("--integrator={}", integrator.name),
   };
+  if (view.environment.file) {
+    arguments.push_back("--environment=" + view.environment.file->string());
+  }
+  if (view.environment.sun) arguments.push_back("--sun=" + text_of(*view.environment.sun));
   for_each_field(settings, [&](const auto& value, const auto& field) {
     arguments.push_back(fmt::format("--{}={}", field.name, value));
   });

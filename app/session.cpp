@@ -59,7 +59,9 @@ std::shared_ptr<const tracer::World> Session::State::make_world() const {
       .scene = model->scene,
       .accel = tree.accel,
       .camera = make_camera_frame(edits.camera, edits.size_px, model->scene->mesh->origin),
-      .sky = edits.sky});
+      .sky = edits.sky,
+      .environment = edits.environment.environment,
+      .zenith = zenith_of(edits.camera)});
 }
 
 const tracer::Integrator& Session::State::integrator() const {
@@ -108,9 +110,9 @@ Status Session::State::status() {
   status.seconds = render.rates.seconds();
   status.dropped_samples = render.passes.dropped;
   if (render.passes.first_dropped) {
-    status.replay =
-        replay_command(replay_arguments(status.model_path, {edits.camera, edits.size_px, edits.sky},
-                                        integrator(), edits.render, *render.passes.first_dropped));
+    status.replay = replay_command(replay_arguments(
+        status.model_path, {edits.camera, edits.size_px, edits.sky, edits.environment.source},
+        integrator(), edits.render, *render.passes.first_dropped));
   }
   return status;
 }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "app/environment_source.h"
 #include "app/session_tiles.h"
 #include "tracer/bvh/build.h"
 #include "tracer/bvh/quality.h"
@@ -28,6 +29,7 @@ struct Edits {
   tracer::Camera camera;
   tracer::Vec2i size_px{1, 1};
   tracer::Vec3d sky{1.0};
+  LoadedEnvironment environment{};  // instead of `sky`, where there is one
   tracer::Shading shading = tracer::Shading::flat;
   const tracer::Integrator* integrator = nullptr;  // nullptr: the first of the table
   tracer::RenderSettings render;

@@ -27,7 +27,7 @@ bool differs(const Settings& before, const Settings& after, tracer::Effect effec
 inline bool is_new_picture(const Edits& before, const Edits& after) {
   return before.model_generation != after.model_generation || before.camera != after.camera ||
          before.size_px != after.size_px || before.sky != after.sky ||
-         before.integrator != after.integrator ||
+         before.environment != after.environment || before.integrator != after.integrator ||
          differs(before.render, after.render, tracer::Effect::restart) ||
          differs(before.build, after.build, tracer::Effect::restart);
 }

@@ -43,6 +43,7 @@ int run_view(const std::vector<std::string>& arguments) {
   add_path(app, "--screenshot", "FILE.png", "write the last frame of --frames here",
            [&](const auto& path) { options.screenshot = path; })
       ->needs("--frames");
+  add_environment(app, options.environment, "");
   // For tests: no group, so that the help does not show it.
   add_path(app, "--ui-layout", "FILE", "", [&](const auto& path) {
     options.ui_layout = path;

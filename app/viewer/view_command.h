@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/environment_source.h"
 #include "tracer/base/vectors.h"
 
 namespace app {
@@ -11,8 +12,9 @@ namespace app {
 struct ViewOptions {
   std::optional<std::filesystem::path> model;
   std::optional<std::filesystem::path> view_file;  // else MODEL.view.json beside the model
-  int sample_limit = 0;                            // samples a pixel; 0: the panel's default
-  int frames = 0;  // more than 0: ends when the picture has so many samples a pixel
+  EnvironmentSource environment;
+  int sample_limit = 0;  // samples a pixel; 0: the panel's default
+  int frames = 0;        // more than 0: ends when the picture has so many samples a pixel
   std::optional<std::filesystem::path> screenshot;  // PNG of the whole window, written at the end
   int thread_count = 0;                             // 0: one a core
   tracer::Vec2i size_px{1280, 800};                 // of the window on an unscaled display

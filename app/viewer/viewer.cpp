@@ -45,6 +45,8 @@ Viewer::Viewer(const ViewOptions& options)
         has_news_ = true;
         Window::wake();
       }) {
+  settings_.set_environment(options.environment);
+  environments_.make(options.environment);  // a file that cannot be read is said at once
   if (options.sample_limit > 0) settings_.sample_limit = options.sample_limit;
   if (options.frames > 0) settings_.sample_limit = options.frames;
 }

@@ -81,6 +81,7 @@ class Viewer {
   OpenDialog open_dialog_;
 
   ViewerSettings settings_;
+  EnvironmentMaker environments_;
   tracer::BuildSettings sent_build_;  // what the session was last asked for
   bool was_build_dragged_ = false;    // when it was
   Viewpoint viewpoint_;

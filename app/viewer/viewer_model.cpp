@@ -116,6 +116,7 @@ void Viewer::send_edits() {
                 .camera = viewpoint_.camera(),
                 .size_px = max(tracer::Vec2i(size), tracer::Vec2i(1)),
                 .sky = settings_.sky(),
+                .environment = environments_.make(settings_.environment_source()),
                 .shading = settings_.shading,
                 .integrator = settings_.integrator,
                 .render = settings_.render,

@@ -58,10 +58,12 @@ TEST_F(CommandLine, help_of_render_names_every_option) {
   const ProgramResult result = run_boxwood({"render", "--help"});
   EXPECT_EQ(result.exit_code, 0);
   for (const char* option :
-       {"--output", "--spp",       "--time",      "--size",       "--view",    "--eye",
-        "--target", "--up",        "--fov",       "--integrator", "--bounces", "--sky",
-        "--bvh",    "--max-depth", "--leaf-size", "--threads",    "--seed",    "--exposure",
-        "--pixel",  "--sample",    "--stats",     "--quiet"}) {
+       {"--output",       "--spp",    "--time",        "--size",      "--view",
+        "--eye",          "--target", "--up",          "--fov",       "--integrator",
+        "--bounces",      "--sky",    "--bvh",         "--max-depth", "--leaf-size",
+        "--threads",      "--seed",   "--exposure",    "--pixel",     "--sample",
+        "--stats",        "--quiet",  "--environment", "--sun",       "--sky-strength",
+        "--sky-rotation", "--clamp"}) {
     EXPECT_NE(result.out.find(option), std::string::npos) << option;
   }
 }
@@ -122,6 +124,12 @@ TEST_F(CommandLine, bad_values_are_refused_by_the_name_of_the_option) {
                                                                        {"--sky", "-1,0,0"},
                                                                        {"--sky", "1"},
                                                                        {"--sky", "1e39,0,0"},
+                                                                       {"--sun", "30"},
+                                                                       {"--sun", "91,0"},
+                                                                       {"--sun", "30,400"},
+                                                                       {"--sun", "30,"},
+                                                                       {"--sky-strength", "-1"},
+                                                                       {"--clamp", "-1"},
                                                                        {"--eye", "1e39,0,0"},
                                                                        {"--pixel", "1280,0"},
                                                                        {"--pixel", "0,720"},
@@ -133,6 +141,7 @@ TEST_F(CommandLine, bad_values_are_refused_by_the_name_of_the_option) {
 TEST_F(CommandLine, options_that_exclude_or_need_each_other_say_so) {
   expect_render_refused({"--spp", "4", "--time", "1"}, "--time");
   expect_render_refused({"--sample", "4"}, "--pixel");
+  expect_render_refused({"--sun", "30,40", "--environment", "sky.hdr"}, "--environment");
   expect_render_refused({"--eye", "1,2,3", "--target", "1,2,3"}, "same point");
 }
 

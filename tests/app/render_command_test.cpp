@@ -82,6 +82,50 @@ TEST_F(RenderCommand, png_and_exr_carry_how_they_were_made) {
   }
 }
 
+TEST_F(RenderCommand, a_clamped_picture_says_that_it_is_biased) {
+  for (const char* name : {"cube.png", "cube.exr"}) {
+    EXPECT_NE(render({"--spp", "1", "--clamp", "2.5"}, name).find("indirect light to 2.5: biased"),
+              std::string::npos);
+    EXPECT_EQ(render({"--spp", "1"}, name).find("biased"), std::string::npos);
+  }
+  EXPECT_EQ(stats_of({"--spp", "1", "--clamp", "2.5"}).at("settings").at("clamp"), 2.5);
+  EXPECT_EQ(stats_of({"--spp", "1"}).at("settings").at("clamp"), 0);
+}
+
+TEST_F(RenderCommand, a_sun_and_a_map_light_the_picture_and_the_report_names_them) {
+  const std::string base = render({"--spp", "2"});
+  const std::string sunny = render({"--spp", "2", "--sun", "30,40"});
+  EXPECT_NE(sunny, base);
+  EXPECT_NE(render({"--spp", "2", "--sun", "30,140"}), sunny);
+  EXPECT_NE(render({"--spp", "2", "--sun", "30,40", "--sky-rotation", "50"}), sunny);
+  EXPECT_EQ(render({"--spp", "2", "--sun", "30,40", "--threads", "3"}), sunny);
+  EXPECT_EQ(stats_of({"--spp", "1", "--sun", "30,40"}).at("settings").at("sun"), Json({30, 40}));
+
+  std::string map = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n";
+  for (int i = 0; i < 8; ++i) map += std::string("\x80\x40\x00\x82", 4);
+  write_file(folder_ / "sky.hdr", map);
+  const std::string mapped = render({"--spp", "2", "--environment", folder_ / "sky.hdr"});
+  EXPECT_NE(mapped, base);
+  EXPECT_NE(render({"--spp", "2", "--environment", folder_ / "sky.hdr", "--sky-strength", "2"}),
+            mapped);
+  EXPECT_EQ(stats_of({"--spp", "1", "--environment", folder_ / "sky.hdr"})
+                .at("settings")
+                .at("environment"),
+            "sky.hdr");
+}
+
+TEST_F(RenderCommand, an_environment_that_cannot_be_read_is_one_line_and_no_picture) {
+  write_file(folder_ / "broken.hdr", "no picture at all");
+  for (const std::string& file : {folder_ / "missing.hdr", folder_ / "broken.hdr"}) {
+    const ProgramResult result =
+        run_boxwood(with_defaults(folder_ / "none.pfm", {"--environment", file}));
+    EXPECT_NE(result.exit_code, 0);
+    EXPECT_NE(result.err.find(file), std::string::npos);
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "none.pfm"));
+  }
+}
+
 TEST_F(RenderCommand, options_of_the_picture_change_it) {
   const std::string base = render({"--spp", "2"});
   EXPECT_NE(render({"--spp", "3"}), base);

@@ -18,7 +18,8 @@ const app::ResolvedView view{.camera = {.eye = {1.0 / 3, 2.1, 4.7},
                                         .up = {0.1, 1, 0},
                                         .fov_degrees = 33.3},
                              .size_px = {16, 12},
-                             .sky = {0.1, 1.0 / 7, 3}};
+                             .sky = {0.1, 1.0 / 7, 3},
+                             .environment = {.file = {}, .sun = {{100.0 / 3, -70.1}}}};
 const tracer::Integrator& path = *tracer::find_integrator("path");
 
 TEST(Replay, of_a_sample_has_the_radiance_of_the_picture) {

@@ -37,7 +37,8 @@ TEST_F(SessionTest, shows_a_model_up_to_the_sample_limit) {
   EXPECT_EQ(picture_.size_px, edits_.size_px);
   EXPECT_EQ(status_.model_path, (folder_ / "ball.obj").string());
   EXPECT_GT(status_.tree.node_count, 100u);
-  EXPECT_GE(status_.rays, 2u * 96 * 64);
+  // Fewer than pixels: blocks beside the ball trace none.
+  EXPECT_GE(status_.rays, 96u * 64);
   EXPECT_GT(status_.mrays_per_second_bvh, 0);
   const tracer::Vec3f corner = picture_.pixels.front();
   const tracer::Vec3f center = picture_.pixels[32 * 96 + 48];
@@ -178,7 +179,7 @@ TEST_F(SessionTest, a_higher_sample_limit_goes_on_where_it_ended) {
   edits_.sample_limit = 3;
   session_->set(edits_);
   ASSERT_TRUE(wait_until([this] { return is_done(); }));
-  EXPECT_GE(status_.rays - rays, 96u * 64);
+  EXPECT_GE(status_.rays - rays, rays / 3);
   EXPECT_LT(status_.rays - rays, rays);
 }
 

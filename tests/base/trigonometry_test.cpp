@@ -55,5 +55,33 @@ TEST(Trigonometry, angles_of_vectors_are_good_to_1e_15_at_every_scale) {
   EXPECT_NEAR(angle_of(0, 1), std::numbers::pi / 2, 1e-15);
 }
 
+TEST(Trigonometry, quick_turns_are_good_to_1e_9_all_around) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int i = 0; i < 1'000'000; ++i) {
+    const double turns = i < 1000 ? i / 1000.0 : 0.5 + 0.5 * uniform(random);
+    const double size = std::exp(10 * uniform(random));
+    const double x = size * static_cast<double>(std::cos(2 * pi * turns));
+    const double y = size * static_cast<double>(std::sin(2 * pi * turns));
+    const double apart = std::abs(quick_turns_of(x, y) - turns);
+    ASSERT_LT(std::min(apart, std::abs(apart - 1)), 1e-9) << turns;
+  }
+  EXPECT_EQ(quick_turns_of(0, 0), 0);
+  EXPECT_EQ(quick_turns_of(0, 1), 0.25);
+  EXPECT_EQ(quick_turns_of(-1, 0), 0.5);
+  EXPECT_EQ(quick_turns_of(0, -1), 0.75);
+}
+
+TEST(Trigonometry, powers_of_e_are_good_to_1e_15) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> uniform(-40, 40);
+  for (int i = 0; i < 1'000'000; ++i) {
+    const double x = uniform(random);
+    ASSERT_NEAR(exp_of(x) / static_cast<double>(std::exp(static_cast<long double>(x))), 1, 1e-15);
+  }
+  EXPECT_EQ(exp_of(0), 1);
+  EXPECT_EQ(exp_of(-1000), 0);
+}
+
 }  // namespace
 }  // namespace tracer

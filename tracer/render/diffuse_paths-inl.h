@@ -60,21 +60,22 @@ class DiffusePaths {
  public:
   DiffusePaths(const World& world, RayCaster& caster, const RenderSettings& settings,
                const SampleBlock& block)
-      : world_(world),
-        scene_(*world.scene),
+      : scene_(*world.scene),
         mesh_(*scene_.mesh),
         caster_(caster),
         settings_(settings),
-        block_(block) {}
+        block_(block),
+        lights_(world, settings),
+        sky_(lights_.sky().radiance(Vec3d(0, 0, 1))) {}
 
   void run() {
     start();
     for (int scatterings = 0;; ++scatterings) {
       shade(scatterings);
-      if (count_ > 0 && !scene_.lights->empty()) add_light();
+      if (count_ > 0 && !lights_.empty()) add_light();
       scatter(scatterings);
       if (count_ == 0) return;
-      if (scatterings + 1 == settings_.bounces && scene_.lights->empty()) return find_sky();
+      if (scatterings + 1 == settings_.bounces && lights_.empty()) return find_sky();
       caster_.closest_hits({rays_.data(), count_}, {hits_.data(), count_});
     }
   }
@@ -99,7 +100,7 @@ class DiffusePaths {
     caster_.occluded({rays_.data(), count_}, {is_occluded_.data(), count_});
     for (size_t i = 0; i < count_; ++i) {
       if (is_occluded_[i]) continue;
-      block_.radiance[samples_[i]] += throughput_.get<Vec3d>(i) * world_.sky;
+      block_.radiance[samples_[i]] += throughput_.get<Vec3d>(i) * sky_;
     }
   }
 
@@ -111,15 +112,16 @@ class DiffusePaths {
       const Vec3d throughput = throughput_.get<Vec3d>(i);
       Vec3d& radiance = block_.radiance[sample];
       if (!hit.is_hit()) {
-        radiance += throughput * world_.sky;
+        radiance += throughput * sky_;
         continue;
       }
       const Material& material = (*scene_.materials)[mesh_.material_of(hit.primitive)];
       if (material.emission != Vec3f(0)) {
         double weight = 1;
         if (scatterings > 0) {
+          const LightReceiver from{rays_[i].origin, left_normal_.get<Vec3f>(i)};
           weight =
-              power_heuristic(scatter_pdf_[i], pdf_light(scene_, hit.primitive, rays_[i], hit.t));
+              power_heuristic(scatter_pdf_[i], lights_.pdf(from, hit.primitive, rays_[i], hit.t));
         }
         radiance += throughput * Vec3d(material.emission) * weight;
       }
@@ -146,7 +148,8 @@ class DiffusePaths {
   void add_light() {
     for (size_t i = 0; i < count_; ++i) {
       Sampler& sampler = block_.samplers[samples_[i]];
-      const LightPick pick = pick_light(*scene_.lights, sampler.next());
+      const LightReceiver receiver{origin_.get<Vec3f>(i), Vec3f(normal_.get<Vec3d>(i))};
+      const Lights::Pick pick = lights_.pick(receiver, sampler.next());
       light_[i] = pick.triangle;
       light_probability_[i] = pick.probability;
       triangle_.set(i, mesh_, pick.triangle);
@@ -217,24 +220,27 @@ class DiffusePaths {
       rays_[kept] = {.origin = origin_.get<Vec3f>(i), .direction = direction_.get<Vec3f>(i)};
       samples_[kept] = sample;
       throughput_.set(kept, throughput);
+      left_normal_.set(kept, normal_.get<Vec3d>(i));
       scatter_pdf_[kept] = scatter_pdf_[i];
       ++kept;
     }
     count_ = kept;
   }
 
-  const World& world_;
   const Scene& scene_;
   const Mesh& mesh_;
   RayCaster& caster_;
   const RenderSettings& settings_;
   const SampleBlock& block_;
+  const Lights lights_;
+  const Vec3d sky_;
 
   // Of the paths under way, in the order of their samples: [0, count_) of each.
   size_t count_ = 0;
   std::array<uint32_t, max_size> samples_;
   Columns<double> throughput_;
   Column<double> scatter_pdf_;
+  Columns<float> left_normal_;  // of the surface that the ray comes from
   std::array<Ray, max_size> rays_;
   std::array<Hit, max_size> hits_;
   // Their surfaces.

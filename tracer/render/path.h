@@ -9,7 +9,6 @@
 #include "tracer/render/integrator.h"
 #include "tracer/render/recorder.h"
 #include "tracer/render/sampling.h"
-#include "tracer/scene/profile.h"
 
 namespace tracer {
 
@@ -25,18 +24,20 @@ class PathWavefront {
  public:
   PathWavefront(const World& world, RayCaster& caster, const RenderSettings& settings,
                 const SampleBlock& block, Recorder& recorder)
-      : world_(world),
-        scene_(*world.scene),
+      : scene_(*world.scene),
         caster_(caster),
         settings_(settings),
         block_(block),
-        recorder_(recorder) {}
+        recorder_(recorder),
+        lights_(world, settings) {}
 
   void run() {
     start();
     for (int scatterings = 0;; ++scatterings) {
       shade(scatterings);
-      if (strategy != LightStrategy::scattering && !scene_.lights->empty()) add_light();
+      if (strategy != LightStrategy::scattering && !lights_.empty()) {
+        add_light(scatterings);
+      }
       scatter(scatterings);
       if (count_ == 0) return;
       caster_.closest_hits({rays_.data(), count_}, {hits_.data(), count_});
@@ -51,6 +52,7 @@ class PathWavefront {
     size_t sample;  // of the block
     Vec3d throughput;
     double scatter_pdf;  // by solid angle, of the ray's direction; infinite: as in Scattering
+    LightReceiver from;  // where it was scattered
     Vec3d viewer;        // unit length, whence the ray came
   };
 
@@ -64,7 +66,7 @@ class PathWavefront {
   void start() {
     count_ = block_.size();
     for (size_t i = 0; i < count_; ++i) {
-      paths_[i] = {i, Vec3d(1), 0, Vec3d(0)};
+      paths_[i] = {i, Vec3d(1), 0, {}, Vec3d(0)};
       rays_[i] = block_.camera_rays[i];
       hits_[i] = block_.camera_hits[i];
       block_.radiance[i] = Vec3d(0);
@@ -86,15 +88,17 @@ class PathWavefront {
   bool shade(Path& path, const Ray& ray, const Hit& hit, int scatterings, Surface& surface) {
     Vec3d& radiance = block_.radiance[path.sample];
     if (!hit.is_hit()) {
-      radiance += path.throughput * world_.sky;
+      const Vec3d direction(ray.direction);
+      const double weight = scatterings == 0 ? 1 : weight_of_found_sky(direction, path.scatter_pdf);
+      const Vec3d found = path.throughput * lights_.sky().radiance(direction) * weight;
+      radiance += limited(found, scatterings);
       recorder_.sky(ray, path.throughput, radiance);
       return false;
     }
     surface = surface_at(scene_, hit, Vec3d(ray.direction));
     if (surface.emission != Vec3d(0)) {
-      const double weight =
-          scatterings == 0 ? 1 : weight_of_found_light(ray, hit, path.scatter_pdf);
-      radiance += path.throughput * surface.emission * weight;
+      const double weight = scatterings == 0 ? 1 : weight_of_found_light(path, ray, hit);
+      radiance += limited(path.throughput * surface.emission * weight, scatterings);
     }
     recorder_.hit(ray, hit, surface, path.throughput, radiance);
     if (scatterings == settings_.bounces) return end("bounces");
@@ -109,23 +113,39 @@ class PathWavefront {
     return scattering.base_color == Vec3f(0) && is_lambert(scattering);
   }
 
+  /// Light that was scattered so often on its way: direct light is never cut.
+  Vec3d limited(const Vec3d& light, int scatterings) const {
+    if (settings_.clamp == 0 || scatterings < 2) return light;
+    const double largest = max_abs(light);
+    return largest > settings_.clamp ? light * (settings_.clamp / largest) : light;
+  }
+
   bool end(const char* reason) {
     recorder_.end(reason);
     return false;
   }
 
   /// Weight of emission that a scattered ray ran into.
-  double weight_of_found_light(const Ray& ray, const Hit& hit, double scatter_pdf) const {
+  double weight_of_found_light(const Path& path, const Ray& ray, const Hit& hit) const {
     if (strategy == LightStrategy::scattering) return 1;
+    return weight_beside(lights_.pdf(path.from, hit.primitive, ray, hit.t), path.scatter_pdf);
+  }
+
+  double weight_of_found_sky(const Vec3d& direction, double scatter_pdf) const {
+    if (strategy == LightStrategy::scattering) return 1;
+    return weight_beside(lights_.sky_pdf(direction), scatter_pdf);
+  }
+
+  // Of what scattering found, where light sampling finds the same with `light_pdf`.
+  static double weight_beside(double light_pdf, double scatter_pdf) {
     // Nothing but a smooth layer finds what it mirrors.
     if (std::isinf(scatter_pdf)) return 1;
-    const double pdf = pdf_light(scene_, hit.primitive, ray, hit.t);
-    if (strategy == LightStrategy::light_sampling) return pdf > 0 ? 0 : 1;
-    return power_heuristic(scatter_pdf, pdf);
+    if (strategy == LightStrategy::light_sampling) return light_pdf > 0 ? 0 : 1;
+    return power_heuristic(scatter_pdf, light_pdf);
   }
 
   /// Adds what each surface scatters from a point picked on the lights.
-  void add_light() {
+  void add_light(int scatterings) {
     size_t shadow_count = 0;
     for (size_t i = 0; i < count_; ++i) {
       Scattered& scattered = scattered_[shadow_count];
@@ -141,14 +161,17 @@ class PathWavefront {
         continue;
       }
       recorder_.light(light, "visible", radiance);
-      block_.radiance[paths_[i].sample] += paths_[i].throughput * radiance;
+      block_.radiance[paths_[i].sample] +=
+          limited(paths_[i].throughput * radiance, scatterings + 1);
     }
   }
 
   // False where the surface scatters none of the light towards the viewer.
   bool pick_light(const Path& path, const Surface& surface, Scattered& scattered) {
     LightSample& light = scattered.light;
-    light = sample_light(scene_, surface, block_.samplers[path.sample]);
+    Sampler& sampler = block_.samplers[path.sample];
+    const double which = sampler.next();
+    light = lights_.sample(surface, which, sampler.next_2d());
     const Scattering found =
         SurfaceScattering<features>(surface, path.viewer).eval(light.direction);
     if (!(light.pdf > 0 && found.pdf > 0)) {
@@ -190,6 +213,7 @@ class PathWavefront {
     Vec3d& throughput = path.throughput;
     throughput *= found.weight;
     if (throughput == Vec3d(0)) return end("absorbed");
+    path.from = receiver_of(surface);
     path.scatter_pdf = found.pdf;
     if (scatterings + 1 >= first_roulette) {
       const double survival = std::min(1.0, std::max({throughput.x, throughput.y, throughput.z}));
@@ -199,12 +223,12 @@ class PathWavefront {
     return true;
   }
 
-  const World& world_;
   const Scene& scene_;
   RayCaster& caster_;
   const RenderSettings& settings_;
   const SampleBlock& block_;
   Recorder& recorder_;
+  const Lights lights_;
 
   // The paths under way, in the order of their samples: [0, count_) of each array.
   size_t count_ = 0;
@@ -218,7 +242,7 @@ class PathWavefront {
   Array<uint8_t> is_occluded_;
 };
 
-/// Surfaces under a constant sky, lit by emissive triangles. A path scatters at most
+/// Surfaces lit by the sky and by emissive triangles. A path scatters at most
 /// settings.bounces times, and its last segment may still end on a light or in the sky: with 0,
 /// only what shines by itself is seen. Paths end at random from the fourth scattering on, with the
 /// rest weighted up, so that the mean stays the same. [Kajiya 1986]
@@ -228,7 +252,7 @@ struct BasicPath {
   static void radiance(const World& world, RayCaster& rays, const RenderSettings& settings,
                        const SampleBlock& block, Recorder& recorder) {
     if constexpr (strategy == LightStrategy::combined && std::is_same_v<Recorder, NoRecorder>) {
-      if (settings.skips && make_profile(*world.scene).is_plain()) {
+      if (settings.skips && can_find_diffuse_paths(world, settings)) {
         return diffuse_paths(world, rays, settings, block);
       }
     }

@@ -9,6 +9,7 @@
 #include "tracer/render/integrator.h"
 #include "tracer/render/recorder.h"
 #include "tracer/render/sampling.h"
+#include "tracer/render/sky.h"
 
 namespace tracer {
 
@@ -24,14 +25,14 @@ std::optional<Surface> first_surface(const World& world, const SampleBlock& bloc
   return std::nullopt;
 }
 
-/// Answers a block by colour(ray, surface) where camera rays end, by `miss` where they meet
+/// Answers a block by colour(ray, surface) where camera rays end, by miss(ray) where they meet
 /// nothing.
-template <class Recorder, class Colour>
-void colour_first_surfaces(const World& world, const SampleBlock& block, const Vec3d& miss,
+template <class Recorder, class Miss, class Colour>
+void colour_first_surfaces(const World& world, const SampleBlock& block, const Miss& miss,
                            Recorder& recorder, const Colour& colour) {
   for (size_t i = 0; i < block.size(); ++i) {
-    block.radiance[i] = miss;
-    const auto surface = first_surface(world, block, i, miss, recorder);
+    block.radiance[i] = block.camera_hits[i].is_hit() ? Vec3d(0) : miss(block.camera_rays[i]);
+    const auto surface = first_surface(world, block, i, block.radiance[i], recorder);
     if (!surface) continue;
     block.radiance[i] = colour(block.camera_rays[i], *surface);
     recorder.hit(block.camera_rays[i], block.camera_hits[i], *surface, Vec3d(1), block.radiance[i]);
@@ -42,14 +43,16 @@ void colour_first_surfaces(const World& world, const SampleBlock& block, const V
 /// plus emission; the sky where nothing is hit.
 struct EyeLight {
   template <class Recorder>
-  static void radiance(const World& world, RayCaster&, const RenderSettings&,
+  static void radiance(const World& world, RayCaster&, const RenderSettings& settings,
                        const SampleBlock& block, Recorder& recorder) {
+    const Sky sky(world, settings);
+    const auto miss = [&](const Ray& ray) { return sky.radiance(Vec3d(ray.direction)); };
     const auto colour = [](const Ray& ray, const Surface& surface) {
       const Vec3d view = unit_or(Vec3d(ray.direction), Vec3d(0));
       const double cosine = std::abs(glm::dot(surface.shading_normal, view));
       return Vec3d(surface.scattering.base_color) * cosine + surface.emission;
     };
-    colour_first_surfaces(world, block, world.sky, recorder, colour);
+    colour_first_surfaces(world, block, miss, recorder, colour);
   }
 };
 
@@ -62,7 +65,8 @@ struct Normals {
     const auto colour = [](const Ray&, const Surface& surface) {
       return 0.5 * (surface.shading_normal + Vec3d(1));
     };
-    colour_first_surfaces(world, block, Vec3d(0), recorder, colour);
+    const auto miss = [](const Ray&) { return Vec3d(0); };
+    colour_first_surfaces(world, block, miss, recorder, colour);
   }
 };
 

@@ -44,8 +44,11 @@ void TextRecorder::sky(const Ray& ray, const Vec3d& throughput, const Vec3d& rad
 }
 
 void TextRecorder::light(const LightSample& sample, const char* verdict, const Vec3d& scattered) {
-  append(text_, "   light  triangle {}  direction {}  pdf {:.6g}  {}  scattered {}\n",
-         sample.triangle, words(sample.direction), sample.pdf, verdict, words(scattered));
+  const std::string what = sample.triangle == no_primitive
+                               ? std::string("sky")
+                               : fmt::format("triangle {}", sample.triangle);
+  append(text_, "   light  {}  direction {}  pdf {:.6g}  {}  scattered {}\n", what,
+         words(sample.direction), sample.pdf, verdict, words(scattered));
 }
 
 void TextRecorder::occlusion(const Ray& ray, bool is_occluded) {

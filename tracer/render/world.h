@@ -5,6 +5,7 @@
 
 #include "tracer/bvh/trace/accel.h"
 #include "tracer/scene/camera.h"
+#include "tracer/scene/environment.h"
 #include "tracer/scene/scene.h"
 
 namespace tracer {
@@ -14,7 +15,9 @@ struct World {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const Accel> accel;  // over scene->mesh
   CameraFrame camera;
-  Vec3d sky{1.0};  // constant radiance from everywhere
+  Vec3d sky{1.0};  // constant radiance from everywhere, where there is no environment
+  std::shared_ptr<const Environment> environment{};  // nullptr: none
+  Vec3d zenith{0, 1, 0};  // of the environment: along an axis, unit length
 };
 
 }  // namespace tracer

@@ -137,4 +137,14 @@ Camera default_camera(const Box& bounds, const Vec3d& mesh_origin, double aspect
   return frame_box(bounds, mesh_origin, -towards_eye, up, Camera{}.fov_degrees, aspect);
 }
 
+Vec3d zenith_of(const Camera& camera) {
+  const Vec3d size = glm::abs(camera.up);
+  int axis = 1;
+  if (size.z > size[axis]) axis = 2;
+  if (size.x > size[axis]) axis = 0;
+  Vec3d zenith(0);
+  zenith[axis] = camera.up[axis] < 0 ? -1 : 1;
+  return zenith;
+}
+
 }  // namespace tracer

@@ -48,6 +48,9 @@ Camera frame_box(const Box& bounds, const Vec3d& mesh_origin, const Vec3d& view_
 /// +Y, but +Z for what lies flat in z, as terrain in survey coordinates does.
 Vec3d guess_up(const Box& bounds);
 
+/// The axis of the world, up or down it, that is nearest to the camera's up.
+Vec3d zenith_of(const Camera& camera);
+
 /// The three-quarter view that a model opens in: from the front, right and above, and from
 /// further above where the model is flat.
 Camera default_camera(const Box& bounds, const Vec3d& mesh_origin, double aspect);

@@ -8,6 +8,7 @@
 #endif
 
 #include "tracer/base/lanes-inl.h"
+#include "tracer/scene/scene.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tracer {
@@ -24,6 +25,16 @@ struct Corners {
   /// Of twice the area's length, right-handed about v0 v1 v2.
   HWY_INLINE Vector3<Real> area_normal() const { return cross(v1 - v0, v2 - v0); }
 };
+
+HWY_INLINE Vector3<double> components(const Vec3d& v) {
+  return {v.x, v.y, v.z};
+}
+HWY_INLINE Vec3d joined(const Vector3<double>& v) {
+  return {v.x, v.y, v.z};
+}
+HWY_INLINE Corners<double> corners_of(const Triangle& triangle) {
+  return {components(triangle.v0), components(triangle.v1), components(triangle.v2)};
+}
 
 /// v at unit length, or `fallback` where v is zero. The squares of its components and their sum
 /// neither overflow nor vanish: differences of floats and products of two such are like that.

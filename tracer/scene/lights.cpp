@@ -1,7 +1,26 @@
 // SPDX-License-Identifier: MIT
+#include "tracer/base/directions.h"
 #include "tracer/scene/scene.h"
 
 namespace tracer {
+namespace {
+
+/// Up to so many are picked by power: a step in the tree takes longer than what it saves.
+constexpr size_t few_lights = 8;
+
+LightTree make_light_tree(const Mesh& mesh, const EmissiveTriangles& lights) {
+  std::vector<LightBounds> bounds;
+  bounds.reserve(lights.triangles.size());
+  for (size_t i = 0; i < lights.triangles.size(); ++i) {
+    const uint32_t triangle = lights.triangles[i];
+    bounds.push_back({.box = mesh.triangle_bounds(triangle),
+                      .normal = unit_or(triangle_at(mesh, triangle).area_normal(), {0, 1, 0}),
+                      .power = lights.probabilities[i]});
+  }
+  return LightTree(bounds);
+}
+
+}  // namespace
 
 EmissiveTriangles make_emissive_triangles(const Mesh& mesh,
                                           const std::vector<Material>& materials) {
@@ -19,6 +38,7 @@ EmissiveTriangles make_emissive_triangles(const Mesh& mesh,
   }
   for (double& probability : lights.probabilities) probability /= total;
   for (double& cumulative : lights.cumulative) cumulative /= total;
+  if (lights.triangles.size() > few_lights) lights.tree = make_light_tree(mesh, lights);
   return lights;
 }
 

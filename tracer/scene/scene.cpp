@@ -37,20 +37,6 @@ Vec3d shading_normal(const Scene& scene, const Hit& hit, const Vec3d& geometric_
   return glm::dot(normal, geometric_normal) < 0 ? -normal : normal;
 }
 
-using HWY_NAMESPACE::Vector3;
-
-Vector3<double> components(const Vec3d& v) {
-  return {v.x, v.y, v.z};
-}
-
-Vec3d joined(const Vector3<double>& v) {
-  return {v.x, v.y, v.z};
-}
-
-HWY_NAMESPACE::Corners<double> corners_of(const Triangle& triangle) {
-  return {components(triangle.v0), components(triangle.v1), components(triangle.v2)};
-}
-
 }  // namespace
 
 BsdfFeatures features_of(const std::vector<Material>& materials) {
@@ -68,14 +54,16 @@ Triangle triangle_at(const Mesh& mesh, uint32_t triangle) {
 }
 
 double clearance_of(const Triangle& triangle, const Vec3d& normal) {
+  using namespace HWY_NAMESPACE;
   return HWY_NAMESPACE::clearance_of(corners_of(triangle), components(normal));
 }
 
 Surface surface_at(const Scene& scene, const Hit& hit, const Vec3d& ray_direction) {
   const Triangle triangle = triangle_at(*scene.mesh, hit.primitive);
   const Material& material = (*scene.materials)[scene.mesh->material_of(hit.primitive)];
+  using namespace HWY_NAMESPACE;
   const auto [position, normal, clearance] =
-      HWY_NAMESPACE::flat_surface(corners_of(triangle), hit.u, hit.v, components(ray_direction));
+      flat_surface(corners_of(triangle), hit.u, hit.v, components(ray_direction));
   Surface surface;
   surface.position = joined(position);
   surface.geometric_normal = joined(normal);

@@ -8,6 +8,7 @@
 
 #include "tracer/geometry/mesh.h"
 #include "tracer/scene/bsdf_features.h"
+#include "tracer/scene/light_tree.h"
 #include "tracer/scene/texture.h"
 
 namespace tracer {
@@ -32,11 +33,12 @@ BsdfFeatures features_of(const std::vector<Material>& materials);
 
 enum class Shading { flat, smooth };
 
-/// Triangles that emit, to be picked by power.
+/// Triangles that emit, to be picked by power; where they are many, by power and place.
 struct EmissiveTriangles {
   std::vector<uint32_t> triangles;
   std::vector<double> cumulative;     // of power / total power; the last is 1
-  std::vector<double> probabilities;  // of picking each
+  std::vector<double> probabilities;  // of picking each by power
+  LightTree tree;                     // over `triangles`; empty where they are few
   bool empty() const { return triangles.empty(); }
 };
 

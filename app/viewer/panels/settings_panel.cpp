@@ -118,8 +118,19 @@ void draw_tree_settings(const Ui& ui, ViewerSettings& settings,
       "round by round. Off: the tree as it was built.");
 }
 
-void draw_sky(const Ui& ui, ViewerSettings& settings) {
-  control_label(ui, "Sky");
+void draw_degrees(const Ui& ui, const char* label, const char* name, double& degrees, double max,
+                  const char* help) {
+  constexpr double min = 0;
+  control_label(ui, label);
+  begin_slider(degrees / max, 0);
+  ImGui::SliderScalar((std::string("##") + name).c_str(), ImGuiDataType_Double, &degrees, &min,
+                      &max, "%.1f deg", ImGuiSliderFlags_AlwaysClamp);
+  end_slider();
+  finish_control(ui, name, help);
+}
+
+void draw_sky_color(const Ui& ui, ViewerSettings& settings) {
+  control_label(ui, "Brightness");
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   begin_slider(settings.sky_brightness / brightest_slider, ImGui::GetFrameHeight() + gap);
   ImGui::SliderFloat("##sky", &settings.sky_brightness, 0, brightest_slider, "%.2f",
@@ -131,6 +142,21 @@ void draw_sky(const Ui& ui, ViewerSettings& settings) {
                     ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float);
   settings.sky_color = clamp(settings.sky_color, tracer::Vec3f(0), tracer::Vec3f(1));
   finish_control(ui, "sky-color", "");
+}
+
+void draw_sky(const Ui& ui, ViewerSettings& settings) {
+  control_label(ui, "Sky");
+  const int kind =
+      settings.environment_file
+          ? segmented(ui, "sky-kind", {"Colour", "Sun", "Map"}, static_cast<int>(settings.sky_kind))
+          : segmented(ui, "sky-kind", {"Colour", "Sun"}, static_cast<int>(settings.sky_kind));
+  settings.sky_kind = static_cast<SkyKind>(kind);
+  if (settings.sky_kind == SkyKind::colour) draw_sky_color(ui, settings);
+  if (settings.sky_kind != SkyKind::sun) return;
+  draw_degrees(ui, "Sun height", "sun-elevation", settings.sun.elevation_degrees, 90,
+               "Of the sun above the horizon.");
+  draw_degrees(ui, "Sun azimuth", "sun-azimuth", settings.sun.azimuth_degrees, 360,
+               "From the model's +X, counter-clockwise as seen from above.");
 }
 
 void draw_picture_settings(const Ui& ui, ViewerSettings& settings) {
@@ -158,6 +184,20 @@ void ViewerSettings::set_sky(const tracer::Vec3d& radiance) {
   const double largest = tracer::max_abs(radiance);
   sky_brightness = static_cast<float>(largest);
   sky_color = largest > 0 ? tracer::Vec3f(radiance / largest) : tracer::Vec3f(1.0f);
+}
+
+void ViewerSettings::set_environment(const EnvironmentSource& source) {
+  environment_file = source.file;
+  if (source.file) sky_kind = SkyKind::map;
+  if (!source.sun) return;
+  sky_kind = SkyKind::sun;
+  sun = *source.sun;
+}
+
+EnvironmentSource ViewerSettings::environment_source() const {
+  if (sky_kind == SkyKind::sun) return {.file = {}, .sun = sun};
+  if (sky_kind == SkyKind::map) return {.file = environment_file, .sun = {}};
+  return {};
 }
 
 const tracer::Builder* ViewerSettings::builder_for(uint32_t triangle_count) const {

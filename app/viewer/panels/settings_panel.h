@@ -7,6 +7,9 @@
 
 namespace app {
 
+/// What the sky of the window is made of.
+enum class SkyKind { colour, sun, map };
+
 /// The settings as the panel holds them.
 struct ViewerSettings {
   bool is_bvh_on = true;
@@ -20,6 +23,9 @@ struct ViewerSettings {
   tracer::RenderSettings render;
   tracer::Vec3f sky_color{0.78f, 0.88f, 1.0f};
   float sky_brightness = 0.6f;
+  SkyKind sky_kind = SkyKind::colour;
+  tracer::SunPosition sun;
+  std::optional<std::filesystem::path> environment_file;  // of the command line; else no map
   int sample_limit = 1024;
   UpAxis up = UpAxis::automatic;
 
@@ -29,6 +35,8 @@ struct ViewerSettings {
   /// nullptr while the BVH is off.
   const tracer::Builder* builder_for(uint32_t triangle_count) const;
   void set_sky(const tracer::Vec3d& radiance);
+  void set_environment(const EnvironmentSource& source);
+  EnvironmentSource environment_source() const;
 };
 
 /// The part of the panel that changes things. `used_builder` is that of the tree in use: nullptr

@@ -22,9 +22,6 @@ namespace {
 // root's area [Stich 2009] 4.1 and of their parent's: elsewhere it hardly ever pays.
 constexpr double least_overlap_of_root = 0x1p-17;
 constexpr double least_overlap_of_parent = 0.1;
-// A cut must cost less than this part of the best other split: smaller savings are less than what
-// the copies cost in memory and in bundles of rays, measured.
-constexpr double most_cost_of_other = 0.9;
 
 /// References in one of two buffers, and the positions that they and their parts may take.
 struct ReferenceRange {
@@ -200,7 +197,7 @@ class SpatialSplitBuild {
            overlap > least_overlap_of_parent * range.bounds.boxes.half_area();
   }
 
-  // Two empty children where no cut costs enough less.
+  // Two empty children where no cut costs less.
   Children cut_space(SpaceBins& bins, const ReferenceRange& range, int depth,
                      const SplitLimits& limits, const SplitCandidate& object) {
     const SpaceGrid grid(range.bounds.boxes.box());
@@ -211,7 +208,7 @@ class SpatialSplitBuild {
     });
     const SplitCandidate best = bins.best_split(grid.axis(), limits, block_count_);
     const double halving_cost = range.bounds.boxes.half_area() * block_count_(range.count());
-    if (!(best.cost < most_cost_of_other * std::min(object.cost, halving_cost))) return {};
+    if (!(best.cost < std::min(object.cost, halving_cost))) return {};
     const float plane = grid.planes()[static_cast<size_t>(best.bin) - 1];
     return distribute(range, depth, SpaceRoute(best, plane, primitives_, block_count_));
   }
