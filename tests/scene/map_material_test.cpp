@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tracer/scene/bsdf_features.h"
+
 namespace tracer {
 namespace {
 
@@ -59,7 +61,7 @@ TEST(MapMaterial, exporters_materials_are_what_their_makers_meant) {
 TEST(MapMaterial, without_highlights_it_is_lambert) {
   for (const char* statements : {"", "Kd 1 1 1", "Ks 1 1 1\nillum 1", "Ks 1 1 1\nillum 0",
                                  "Ks 0 0 0\nillum 2", "Ka 1 1 1\nTf 1 1 1\nillum 1\nNi 1.5"}) {
-    EXPECT_TRUE(is_diffuse(mapped(statements).scattering)) << statements;
+    EXPECT_TRUE(is_lambert(mapped(statements).scattering)) << statements;
   }
   EXPECT_EQ(mapped("").scattering.base_color, Vec3f(0.8f));
 }

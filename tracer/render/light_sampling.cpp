@@ -24,6 +24,7 @@ LightTree::Pick pick_by_power(const EmissiveTriangles& lights, double u) {
 }  // namespace
 
 LightReceiver receiver_of(const Surface& surface) {
+  if (surface.scattering.transmission > 0) return {offset_origin(surface), Vec3f(0)};
   return {offset_origin(surface), Vec3f(surface.shading_normal)};
 }
 

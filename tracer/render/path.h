@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "tracer/render/bsdf_surface.h"
 #include "tracer/render/diffuse_paths.h"
 #include "tracer/render/integrator.h"
 #include "tracer/render/recorder.h"
@@ -17,7 +18,8 @@ enum class LightStrategy { combined, light_sampling, scattering };
 
 /// The paths of a block, a vertex at a time: what all of them hit is shaded, then all shadow rays
 /// are traced, then all next rays; paths that end are dropped from the arrays. [Laine 2013]
-template <LightStrategy strategy, class Recorder>
+/// No surface has more than `features`.
+template <LightStrategy strategy, BsdfFeatures features, class Recorder>
 class PathWavefront {
  public:
   PathWavefront(const World& world, RayCaster& caster, const RenderSettings& settings,
@@ -49,8 +51,9 @@ class PathWavefront {
   struct Path {
     size_t sample;  // of the block
     Vec3d throughput;
-    double scatter_pdf;  // by solid angle, of the ray's direction
+    double scatter_pdf;  // by solid angle, of the ray's direction; infinite: as in Scattering
     LightReceiver from;  // where it was scattered
+    Vec3d viewer;        // unit length, whence the ray came
   };
 
   /// What a path's vertex scatters towards the viewer if nothing hides the light.
@@ -63,7 +66,7 @@ class PathWavefront {
   void start() {
     count_ = block_.size();
     for (size_t i = 0; i < count_; ++i) {
-      paths_[i] = {i, Vec3d(1), 0, {}};
+      paths_[i] = {i, Vec3d(1), 0, {}, Vec3d(0)};
       rays_[i] = block_.camera_rays[i];
       hits_[i] = block_.camera_hits[i];
       block_.radiance[i] = Vec3d(0);
@@ -82,7 +85,7 @@ class PathWavefront {
     count_ = kept;
   }
 
-  bool shade(const Path& path, const Ray& ray, const Hit& hit, int scatterings, Surface& surface) {
+  bool shade(Path& path, const Ray& ray, const Hit& hit, int scatterings, Surface& surface) {
     Vec3d& radiance = block_.radiance[path.sample];
     if (!hit.is_hit()) {
       const Vec3d direction(ray.direction);
@@ -99,8 +102,15 @@ class PathWavefront {
     }
     recorder_.hit(ray, hit, surface, path.throughput, radiance);
     if (scatterings == settings_.bounces) return end("bounces");
-    if (surface.scattering.base_color == Vec3f(0)) return end("absorbed");
+    if (is_black(surface.scattering)) return end("absorbed");
+    if constexpr (features != BsdfFeatures::diffuse) {
+      path.viewer = unit_or(-Vec3d(ray.direction), surface.geometric_normal);
+    }
     return true;
+  }
+
+  static bool is_black(const Principled& scattering) {
+    return scattering.base_color == Vec3f(0) && is_lambert(scattering);
   }
 
   /// Light that was scattered so often on its way: direct light is never cut.
@@ -128,6 +138,8 @@ class PathWavefront {
 
   // Of what scattering found, where light sampling finds the same with `light_pdf`.
   static double weight_beside(double light_pdf, double scatter_pdf) {
+    // Nothing but a smooth layer finds what it mirrors.
+    if (std::isinf(scatter_pdf)) return 1;
     if (strategy == LightStrategy::light_sampling) return light_pdf > 0 ? 0 : 1;
     return power_heuristic(scatter_pdf, light_pdf);
   }
@@ -138,7 +150,7 @@ class PathWavefront {
     for (size_t i = 0; i < count_; ++i) {
       Scattered& scattered = scattered_[shadow_count];
       scattered.path = i;
-      if (!pick_light(surfaces_[i], block_.samplers[paths_[i].sample], scattered)) continue;
+      if (!pick_light(paths_[i], surfaces_[i], scattered)) continue;
       shadow_rays_[shadow_count++] = scattered.light.shadow_ray;
     }
     caster_.occluded({shadow_rays_.data(), shadow_count}, {is_occluded_.data(), shadow_count});
@@ -154,24 +166,31 @@ class PathWavefront {
     }
   }
 
-  // False where the light is behind the surface.
-  bool pick_light(const Surface& surface, Sampler& sampler, Scattered& scattered) {
+  // False where the surface scatters none of the light towards the viewer.
+  bool pick_light(const Path& path, const Surface& surface, Scattered& scattered) {
     LightSample& light = scattered.light;
+    Sampler& sampler = block_.samplers[path.sample];
     const double which = sampler.next();
     light = lights_.sample(surface, which, sampler.next_2d());
-    const double cosine = glm::dot(light.direction, surface.shading_normal);
-    const double geometric_cosine = glm::dot(light.direction, surface.geometric_normal);
-    if (!(light.pdf > 0 && cosine > 0 && geometric_cosine > 0)) {
+    const Scattering found =
+        SurfaceScattering<features>(surface, path.viewer).eval(light.direction);
+    if (!(light.pdf > 0 && found.pdf > 0)) {
       recorder_.light(light, "behind", Vec3d(0));
       return false;
     }
-    const double scatter_pdf = pdf_cosine_hemisphere(cosine);
+    if (found.is_transmitted) light.shadow_ray = from_behind(surface, light.shadow_ray);
     const double weight =
-        strategy == LightStrategy::light_sampling ? 1 : power_heuristic(light.pdf, scatter_pdf);
-    // albedo / pi * cosine is albedo * scatter_pdf.
-    scattered.radiance =
-        Vec3d(surface.scattering.base_color) * light.radiance * (weight * scatter_pdf / light.pdf);
+        strategy == LightStrategy::light_sampling ? 1 : power_heuristic(light.pdf, found.pdf);
+    scattered.radiance = found.weight * light.radiance * (weight * found.pdf / light.pdf);
     return true;
+  }
+
+  /// A ray to the same end.
+  static Ray from_behind(const Surface& surface, Ray ray) {
+    const Vec3d moved = Vec3d(ray.origin) - Vec3d(offset_origin_behind(surface));
+    if (std::isfinite(ray.t_max)) ray.direction = Vec3f(Vec3d(ray.direction) + moved / ray.t_max);
+    ray.origin = offset_origin_behind(surface);
+    return ray;
   }
 
   /// Gives the paths their next rays. Those that go on stay.
@@ -186,16 +205,16 @@ class PathWavefront {
   bool scatter(Path& path, const Surface& surface, int scatterings, Ray& ray) {
     constexpr int first_roulette = 4;
     Sampler& sampler = block_.samplers[path.sample];
-    // Cosine sampling: albedo / pi * cosine / pdf leaves the albedo.
-    const Vec3d direction = sample_cosine_hemisphere(surface.shading_normal, sampler.next_2d());
-    ray = {.origin = offset_origin(surface), .direction = Vec3f(direction)};
-    if (!(glm::dot(Vec3d(ray.direction), surface.geometric_normal) > 0)) {
-      return end("below the surface");
-    }
+    const Scattering found = SurfaceScattering<features>(surface, path.viewer).sample(sampler);
+    ray = {.origin = found.is_transmitted ? offset_origin_behind(surface) : offset_origin(surface),
+           .direction = Vec3f(found.direction)};
+    const double up = glm::dot(Vec3d(ray.direction), surface.geometric_normal);
+    if (!(found.is_transmitted ? up < 0 : up > 0)) return end("below the surface");
     Vec3d& throughput = path.throughput;
-    throughput *= Vec3d(surface.scattering.base_color);
+    throughput *= found.weight;
+    if (throughput == Vec3d(0)) return end("absorbed");
     path.from = receiver_of(surface);
-    path.scatter_pdf = pdf_cosine_hemisphere(glm::dot(direction, surface.shading_normal));
+    path.scatter_pdf = found.pdf;
     if (scatterings + 1 >= first_roulette) {
       const double survival = std::min(1.0, std::max({throughput.x, throughput.y, throughput.z}));
       if (sampler.next() >= survival) return end("roulette");
@@ -223,7 +242,7 @@ class PathWavefront {
   Array<uint8_t> is_occluded_;
 };
 
-/// Diffuse surfaces lit by the sky and by emissive triangles. A path scatters at most
+/// Surfaces lit by the sky and by emissive triangles. A path scatters at most
 /// settings.bounces times, and its last segment may still end on a light or in the sky: with 0,
 /// only what shines by itself is seen. Paths end at random from the fourth scattering on, with the
 /// rest weighted up, so that the mean stays the same. [Kajiya 1986]
@@ -237,7 +256,15 @@ struct BasicPath {
         return diffuse_paths(world, rays, settings, block);
       }
     }
-    PathWavefront<strategy, Recorder>(world, rays, settings, block, recorder).run();
+    using enum BsdfFeatures;
+    const BsdfFeatures missing = settings.skips ? without(world.scene->features) : diffuse;
+    const auto run = [&]<BsdfFeatures features>() {
+      PathWavefront<strategy, features, Recorder>(world, rays, settings, block, recorder).run();
+    };
+    if (missing == all) return run.template operator()<diffuse>();
+    if (has(missing, layers | transmission)) return run.template operator()<reflection>();
+    if (has(missing, transmission)) return run.template operator()<reflection | layers>();
+    run.template operator()<all>();
   }
 };
 

@@ -39,7 +39,7 @@ void colour_first_surfaces(const World& world, const SampleBlock& block, const M
   }
 }
 
-/// Albedo times the cosine between view and shading normal, as if lit by a lamp on the camera,
+/// Base colour times the cosine between view and shading normal, as if lit by a lamp on the camera,
 /// plus emission; the sky where nothing is hit.
 struct EyeLight {
   template <class Recorder>

@@ -49,6 +49,7 @@ LightReceiver LightTree::placed(const LightReceiver& receiver) const {
 LightTree::Weights LightTree::weights_of(const Node& node, const LightReceiver& receiver) {
   Weights weights;
   const Vec3f& p = receiver.position;
+  const Float4 least_arriving = splat(receiver.normal == Vec3f(0) ? 1.0f : 0.0f);
   for (size_t half = 0; half < node.quads.size(); ++half) {
     const Quad& quad = node.quads[half];
     const Float4 x = quad.x - p.x;
@@ -67,8 +68,8 @@ LightTree::Weights LightTree::weights_of(const Node& node, const LightReceiver& 
     const Float4 most_leaving =
         difference(difference(leaving, {quad.cos_spread, quad.sin_spread}), seen).cos;
     const Float4 most_arriving = difference(arriving, seen).cos;
-    const Float4 weight =
-        quad.power * max_of(most_leaving, splat(0)) * max_of(most_arriving, splat(0)) / square;
+    const Float4 weight = quad.power * max_of(most_leaving, splat(0)) *
+                          max_of(most_arriving, least_arriving) / square;
     std::memcpy(&weights[4 * half], &weight, sizeof weight);
   }
   const double sum = sum_of(weights);

@@ -17,10 +17,11 @@ struct LightBounds {
   double power = 0;  // above 0, in any unit
 };
 
-/// Where light is wanted: lights below the plane of the normal are of no use.
+/// Where light is wanted: lights below the plane of the normal are of no use. Without a normal,
+/// light from everywhere is.
 struct LightReceiver {
   Vec3f position{};
-  Vec3f normal{};  // unit length
+  Vec3f normal{};  // unit length or zero
 };
 
 /// Lights to be picked by what they may bring to a receiver: power, distance and both cosines,

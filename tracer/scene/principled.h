@@ -22,9 +22,4 @@ struct Principled {
   float ior = 1.5f;        // of the clear matter, at least 1
 };
 
-/// Whether it is Lambert's reflection and nothing else.
-inline bool is_diffuse(const Principled& p) {
-  return p.metallic == 0 && p.specular == 0 && p.sheen == 0 && p.coat == 0 && p.transmission == 0;
-}
-
 }  // namespace tracer

@@ -4,11 +4,6 @@
 namespace tracer {
 namespace {
 
-bool has_scattering_lobes(const Scene& scene) {
-  return std::any_of(scene.materials->begin(), scene.materials->end(),
-                     [](const Material& material) { return !is_diffuse(material.scattering); });
-}
-
 // Those are not among the lights.
 bool has_shining_textures(const Scene& scene) {
   return std::any_of(
@@ -22,8 +17,8 @@ SceneProfile make_profile(const Scene& scene) {
   return {.has_surface_colors = !scene.mesh->colors.empty() || !scene.textures->empty(),
           .has_smooth_normals = scene.shading == Shading::smooth,
           .has_emissive_triangles = !scene.lights->empty() || has_shining_textures(scene),
-          .has_scattering_lobes = has_scattering_lobes(scene),
-          .has_alpha = !is_opaque(scene)};
+          .has_alpha = !is_opaque(scene),
+          .features = scene.features};
 }
 
 std::vector<SkippedWork> skipped_work(const SceneProfile& profile) {
@@ -34,6 +29,15 @@ std::vector<SkippedWork> skipped_work(const SceneProfile& profile) {
   if (!profile.has_smooth_normals) {
     skipped.push_back({"normals at each hit", "triangles are shaded flat"});
   }
+  const auto lacks = [&](BsdfFeatures part) { return !has(profile.features, part); };
+  if (lacks(BsdfFeatures::reflection)) {
+    skipped.push_back({"highlights", "no metal, no dielectric that reflects"});
+  }
+  if (lacks(BsdfFeatures::layers)) skipped.push_back({"layers", "no clear coat, no sheen"});
+  if (lacks(BsdfFeatures::transmission)) {
+    skipped.push_back({"light through surfaces", "nothing transmits"});
+  }
+  if (!profile.has_alpha) skipped.push_back({"opacity at each hit", "no ray passes a surface"});
   if (profile.is_plain()) {
     skipped.push_back({"shading one path at a time", "all surfaces are plain"});
   }

@@ -13,12 +13,13 @@ struct SceneProfile {
   bool has_surface_colors = false;  // textures or colours of vertices, not one a material
   bool has_smooth_normals = false;  // not one a triangle
   bool has_emissive_triangles = false;
-  bool has_scattering_lobes = false;  // beside Lambert's diffuse reflection
-  bool has_alpha = false;             // surfaces that let rays pass
+  bool has_alpha = false;                         // surfaces that let rays pass
+  BsdfFeatures features = BsdfFeatures::diffuse;  // of all surfaces
 
   /// All surfaces are flat, diffuse, opaque and of one colour a material.
   bool is_plain() const {
-    return !has_surface_colors && !has_smooth_normals && !has_scattering_lobes && !has_alpha;
+    return !has_surface_colors && !has_smooth_normals && !has_alpha &&
+           features == BsdfFeatures::diffuse;
   }
 };
 

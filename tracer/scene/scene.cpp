@@ -32,6 +32,17 @@ Vec3d shading_normal(const Scene& scene, const Hit& hit, const Vec3d& geometric_
 
 }  // namespace
 
+BsdfFeatures features_of(const std::vector<Material>& materials) {
+  BsdfFeatures features = BsdfFeatures::diffuse;
+  for (const Material& material : materials) {
+    features = features | features_of(material.scattering);
+    const bool may_reflect =
+        !material.map(MapSlot::specular).empty() || !material.map(MapSlot::metallic).empty();
+    if (may_reflect) features = features | BsdfFeatures::reflection;
+  }
+  return features;
+}
+
 Triangle triangle_at(const Mesh& mesh, uint32_t triangle) {
   const Vec3u& corner = mesh.triangles[triangle];
   return {Vec3d(mesh.positions[corner.x]), Vec3d(mesh.positions[corner.y]),
@@ -60,11 +71,16 @@ Surface surface_at(const Scene& scene, const Hit& hit, const Vec3d& ray_directio
   surface.emission = Vec3d(material.emission);
   if (material.has_maps) apply_maps(scene, material, hit, triangle, footprint, surface);
   surface.triangle = hit.primitive;
+  surface.is_front = glm::dot(triangle.area_normal(), surface.geometric_normal) >= 0;
   return surface;
 }
 
 Vec3f offset_origin(const Surface& surface) {
   return Vec3f(surface.position + surface.clearance * surface.geometric_normal);
+}
+
+Vec3f offset_origin_behind(const Surface& surface) {
+  return Vec3f(surface.position - surface.clearance * surface.geometric_normal);
 }
 
 }  // namespace tracer

@@ -6,11 +6,15 @@
 #include <vector>
 
 #include "tracer/geometry/mesh.h"
+#include "tracer/scene/bsdf_features.h"
 #include "tracer/scene/light_tree.h"
 #include "tracer/scene/material.h"
 #include "tracer/scene/texture.h"
 
 namespace tracer {
+
+/// What any of them has, their maps included.
+BsdfFeatures features_of(const std::vector<Material>& materials);
 
 enum class Shading { flat, smooth };
 
@@ -33,6 +37,7 @@ struct Scene {
   std::shared_ptr<const std::vector<Material>> materials;  // at least one
   std::shared_ptr<const std::vector<Texture>> textures;
   std::shared_ptr<const EmissiveTriangles> lights;
+  BsdfFeatures features = BsdfFeatures::all;  // none beyond these
   Shading shading = Shading::flat;
   // Smooth shading only: one unit normal a corner by index, as in Mesh; zero where the triangles
   // around a position cancel out, and the geometric normal stands in.
@@ -67,6 +72,7 @@ struct Surface {
   Vec3d emission;        // radiance towards the ray
   double clearance = 0;  // of the triangle along geometric_normal
   uint32_t triangle = 0;
+  bool is_front = true;  // geometric_normal is the triangle's right-handed one
 };
 /// `footprint` is the width of the ray where it hits, as that of a cone: textures are taken as
 /// finely as that; 0 is finest.
@@ -81,5 +87,7 @@ bool is_opaque(const Scene& scene);
 
 /// The float origin of a ray that leaves the surface towards the side of geometric_normal.
 Vec3f offset_origin(const Surface& surface);
+/// Of one that goes on through it.
+Vec3f offset_origin_behind(const Surface& surface);
 
 }  // namespace tracer
