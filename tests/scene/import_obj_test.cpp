@@ -225,7 +225,7 @@ TEST(ImportObj, a_missing_texture_of_numbers_is_a_warning_and_the_number_counts)
   const Material& material = imported.scene.materials->at(1);
   EXPECT_FALSE(material.has_maps);
   EXPECT_EQ(material.scattering.roughness, 0.25f);
-  EXPECT_TRUE(is_opaque(imported.scene));
+  EXPECT_FALSE(imported.scene.surfaces.has_alpha);
 }
 
 TEST(ImportObj, an_image_is_read_once_a_use) {

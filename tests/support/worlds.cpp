@@ -67,7 +67,7 @@ World make_world(const Triangles& triangles, const std::vector<Material>& materi
   auto scene = std::make_shared<Scene>();
   scene->mesh = std::make_shared<Mesh>(triangles.mesh);
   scene->materials = std::make_shared<std::vector<Material>>(materials);
-  scene->features = features_of(materials);
+  scene->surfaces = summarize(materials);
   scene->textures = std::make_shared<std::vector<Texture>>();
   scene->lights =
       std::make_shared<EmissiveTriangles>(make_emissive_triangles(*scene->mesh, materials));

@@ -7,6 +7,7 @@
 #include "tracer/render/bsdf_surface.h"
 #include "tracer/render/diffuse_paths.h"
 #include "tracer/render/integrator.h"
+#include "tracer/render/pass_through.h"
 #include "tracer/render/recorder.h"
 #include "tracer/render/sampling.h"
 
@@ -29,7 +30,8 @@ class PathWavefront {
         settings_(settings),
         block_(block),
         recorder_(recorder),
-        lights_(world, settings) {}
+        lights_(world, settings),
+        pixel_spread_(glm::length(world.camera.right_step)) {}
 
   void run() {
     start();
@@ -41,6 +43,7 @@ class PathWavefront {
       scatter(scatterings);
       if (count_ == 0) return;
       caster_.closest_hits({rays_.data(), count_}, {hits_.data(), count_});
+      if (scene_.surfaces.has_alpha) pass_through();
     }
   }
 
@@ -54,6 +57,8 @@ class PathWavefront {
     double scatter_pdf;  // by solid angle, of the ray's direction; infinite: as in Scattering
     LightReceiver from;  // where it was scattered
     Vec3d viewer;        // unit length, whence the ray came
+    // Of the cone that the ray stands for: where it begins, and more at each unit of its way.
+    double width, spread;
   };
 
   /// What a path's vertex scatters towards the viewer if nothing hides the light.
@@ -66,11 +71,18 @@ class PathWavefront {
   void start() {
     count_ = block_.size();
     for (size_t i = 0; i < count_; ++i) {
-      paths_[i] = {i, Vec3d(1), 0, {}, Vec3d(0)};
+      paths_[i] = {i, Vec3d(1), 0, {}, Vec3d(0), 0, pixel_spread_};
       rays_[i] = block_.camera_rays[i];
       hits_[i] = block_.camera_hits[i];
       block_.radiance[i] = Vec3d(0);
       recorder_.camera(rays_[i]);
+    }
+  }
+
+  void pass_through() {
+    for (size_t i = 0; i < count_; ++i) {
+      Sampler& sampler = block_.samplers[paths_[i].sample];
+      hits_[i] = tracer::pass_through(scene_, caster_, sampler, rays_[i], hits_[i]);
     }
   }
 
@@ -95,7 +107,8 @@ class PathWavefront {
       recorder_.sky(ray, path.throughput, radiance);
       return false;
     }
-    surface = surface_at(scene_, hit, Vec3d(ray.direction));
+    path.width += path.spread * hit.t;
+    surface = surface_at(scene_, hit, Vec3d(ray.direction), path.width);
     if (surface.emission != Vec3d(0)) {
       const double weight = scatterings == 0 ? 1 : weight_of_found_light(path, ray, hit);
       radiance += limited(path.throughput * surface.emission * weight, scatterings);
@@ -156,13 +169,18 @@ class PathWavefront {
     caster_.occluded({shadow_rays_.data(), shadow_count}, {is_occluded_.data(), shadow_count});
     for (size_t k = 0; k < shadow_count; ++k) {
       const auto& [i, light, radiance] = scattered_[k];
-      if (is_occluded_[k]) {
+      double share = is_occluded_[k] ? 0 : 1;
+      if (is_occluded_[k] && scene_.surfaces.has_alpha) {
+        share = transmittance(scene_, caster_, shadow_rays_[k]);
+      }
+      if (share == 0) {
         recorder_.light(light, "occluded", Vec3d(0));
         continue;
       }
-      recorder_.light(light, "visible", radiance);
+      const Vec3d arriving = share * radiance;
+      recorder_.light(light, "visible", arriving);
       block_.radiance[paths_[i].sample] +=
-          limited(paths_[i].throughput * radiance, scatterings + 1);
+          limited(paths_[i].throughput * arriving, scatterings + 1);
     }
   }
 
@@ -215,6 +233,8 @@ class PathWavefront {
     if (throughput == Vec3d(0)) return end("absorbed");
     path.from = receiver_of(surface);
     path.scatter_pdf = found.pdf;
+    // A part of the lobe: textures are seen through others too.
+    path.spread = std::max(path.spread, std::min(0.1 / std::sqrt(found.pdf), 0.3));
     if (scatterings + 1 >= first_roulette) {
       const double survival = std::min(1.0, std::max({throughput.x, throughput.y, throughput.z}));
       if (sampler.next() >= survival) return end("roulette");
@@ -229,6 +249,7 @@ class PathWavefront {
   const SampleBlock& block_;
   Recorder& recorder_;
   const Lights lights_;
+  const double pixel_spread_;  // of camera rays
 
   // The paths under way, in the order of their samples: [0, count_) of each array.
   size_t count_ = 0;
@@ -257,7 +278,7 @@ struct BasicPath {
       }
     }
     using enum BsdfFeatures;
-    const BsdfFeatures missing = settings.skips ? without(world.scene->features) : diffuse;
+    const BsdfFeatures missing = settings.skips ? without(world.scene->surfaces.features) : diffuse;
     const auto run = [&]<BsdfFeatures features>() {
       PathWavefront<strategy, features, Recorder>(world, rays, settings, block, recorder).run();
     };

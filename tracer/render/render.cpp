@@ -10,6 +10,7 @@
 
 #include "tracer/base/parallel.h"
 #include "tracer/render/camera_rays.h"
+#include "tracer/render/pass_through.h"
 
 namespace tracer {
 namespace {
@@ -120,6 +121,11 @@ class TileRenderer {
     } else {
       std::fill_n(&block_.hits[first], count, Hit{});
     }
+    const Scene& scene = *context_.world.scene;
+    for (size_t i = first; scene.surfaces.has_alpha && i < first + count; ++i) {
+      block_.hits[i] =
+          pass_through(scene, rays_, block_.samplers[i], block_.rays[i], block_.hits[i]);
+    }
     context_.integrator.radiance(context_.world, rays_, context_.settings,
                                  {.camera_rays = {&block_.rays[first], count},
                                   .camera_hits = {&block_.hits[first], count},
@@ -158,7 +164,10 @@ Vec3d answer_sample(const World& world, const RenderSettings& settings, Vec2i pi
   Sampler sampler(settings.sampler, pixel, sample, static_cast<uint32_t>(settings.seed));
   Ray ray;
   camera_rays(world.camera, {&pixel, 1}, {&sampler, 1}, {&ray, 1});
-  const Hit hit = rays.closest_hit(ray);
+  Hit hit = rays.closest_hit(ray);
+  if (world.scene->surfaces.has_alpha) {
+    hit = pass_through(*world.scene, rays, sampler, ray, hit);
+  }
   Vec3d radiance(0);
   answer(SampleBlock{.camera_rays = {&ray, 1},
                      .camera_hits = {&hit, 1},

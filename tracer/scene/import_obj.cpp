@@ -59,7 +59,7 @@ ImportedScene import_obj(const std::filesystem::path& path, Progress& progress) 
   Scene scene;
   scene.lights = std::make_shared<const EmissiveTriangles>(
       make_emissive_triangles(made.mesh, imported.materials));
-  scene.features = features_of(imported.materials);
+  scene.surfaces = summarize(imported.materials);
   scene.mesh = std::make_shared<const Mesh>(std::move(made.mesh));
   scene.materials = std::make_shared<const std::vector<Material>>(std::move(imported.materials));
   scene.textures = std::make_shared<const std::vector<Texture>>(std::move(imported.textures));

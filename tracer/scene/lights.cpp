@@ -29,7 +29,9 @@ EmissiveTriangles make_emissive_triangles(const Mesh& mesh,
   for (uint32_t i = 0; i < mesh.triangle_count(); ++i) {
     const Material& material = materials[mesh.material_of(i)];
     const double radiance = luminance(Vec3d(material.emission));
-    if (!(radiance > 0) || !material.map(MapSlot::emission).empty()) continue;
+    // What a texture or chance decides is found by scattered rays alone.
+    if (!material.map(MapSlot::emission).empty() || !is_opaque(material)) continue;
+    if (!(radiance > 0)) continue;
     const double power = triangle_at(mesh, i).area() * radiance;
     if (!(power > 0) || !std::isfinite(power)) continue;
     total += power;

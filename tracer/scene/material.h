@@ -57,4 +57,9 @@ struct Material {
   }
 };
 
+/// Whether every ray that hits it, meets it.
+inline bool is_opaque(const Material& material) {
+  return material.opacity == 1 && material.map(MapSlot::opacity).empty();
+}
+
 }  // namespace tracer

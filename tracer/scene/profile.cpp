@@ -2,23 +2,12 @@
 #include "tracer/scene/profile.h"
 
 namespace tracer {
-namespace {
-
-// Those are not among the lights.
-bool has_shining_textures(const Scene& scene) {
-  return std::any_of(
-      scene.materials->begin(), scene.materials->end(),
-      [](const Material& material) { return !material.map(MapSlot::emission).empty(); });
-}
-
-}  // namespace
-
 SceneProfile make_profile(const Scene& scene) {
   return {.has_surface_colors = !scene.mesh->colors.empty() || !scene.textures->empty(),
           .has_smooth_normals = scene.shading == Shading::smooth,
-          .has_emissive_triangles = !scene.lights->empty() || has_shining_textures(scene),
-          .has_alpha = !is_opaque(scene),
-          .features = scene.features};
+          .has_emissive_triangles = !scene.lights->empty() || scene.surfaces.has_shining_textures,
+          .has_alpha = scene.surfaces.has_alpha,
+          .features = scene.surfaces.features};
 }
 
 std::vector<SkippedWork> skipped_work(const SceneProfile& profile) {

@@ -32,15 +32,19 @@ Vec3d shading_normal(const Scene& scene, const Hit& hit, const Vec3d& geometric_
 
 }  // namespace
 
-BsdfFeatures features_of(const std::vector<Material>& materials) {
-  BsdfFeatures features = BsdfFeatures::diffuse;
+MaterialSummary summarize(const std::vector<Material>& materials) {
+  MaterialSummary summary{BsdfFeatures::diffuse, false, false};
   for (const Material& material : materials) {
-    features = features | features_of(material.scattering);
-    const bool may_reflect =
-        !material.map(MapSlot::specular).empty() || !material.map(MapSlot::metallic).empty();
-    if (may_reflect) features = features | BsdfFeatures::reflection;
+    const auto has_map = [&](MapSlot slot) { return !material.map(slot).empty(); };
+    BsdfFeatures features = features_of(material.scattering);
+    if (has_map(MapSlot::specular) || has_map(MapSlot::metallic)) {
+      features = features | BsdfFeatures::reflection;
+    }
+    summary.features = summary.features | features;
+    summary.has_alpha = summary.has_alpha || !is_opaque(material);
+    summary.has_shining_textures = summary.has_shining_textures || has_map(MapSlot::emission);
   }
-  return features;
+  return summary;
 }
 
 Triangle triangle_at(const Mesh& mesh, uint32_t triangle) {

@@ -13,8 +13,13 @@
 
 namespace tracer {
 
-/// What any of them has, their maps included.
-BsdfFeatures features_of(const std::vector<Material>& materials);
+/// What some of a scene's materials have, their maps included; all of it when in doubt.
+struct MaterialSummary {
+  BsdfFeatures features = BsdfFeatures::all;
+  bool has_alpha = true;             // a share of rays passes them
+  bool has_shining_textures = true;  // which are not among the lights
+};
+MaterialSummary summarize(const std::vector<Material>& materials);
 
 enum class Shading { flat, smooth };
 
@@ -37,7 +42,7 @@ struct Scene {
   std::shared_ptr<const std::vector<Material>> materials;  // at least one
   std::shared_ptr<const std::vector<Texture>> textures;
   std::shared_ptr<const EmissiveTriangles> lights;
-  BsdfFeatures features = BsdfFeatures::all;  // none beyond these
+  MaterialSummary surfaces;
   Shading shading = Shading::flat;
   // Smooth shading only: one unit normal a corner by index, as in Mesh; zero where the triangles
   // around a position cancel out, and the geometric normal stands in.
@@ -81,9 +86,6 @@ Surface surface_at(const Scene& scene, const Hit& hit, const Vec3d& ray_directio
 
 /// The share of rays that meet the surface here, in [0, 1]; others pass as if it were not there.
 double opacity_at(const Scene& scene, const Hit& hit);
-
-/// Whether every ray that hits, meets: opacity_at is 1 everywhere.
-bool is_opaque(const Scene& scene);
 
 /// The float origin of a ray that leaves the surface towards the side of geometric_normal.
 Vec3f offset_origin(const Surface& surface);

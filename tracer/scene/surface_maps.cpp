@@ -166,11 +166,4 @@ double opacity_at(const Scene& scene, const Hit& hit) {
   return static_cast<double>(material.opacity * reader.number(map));
 }
 
-bool is_opaque(const Scene& scene) {
-  return std::all_of(scene.materials->begin(), scene.materials->end(),
-                     [](const Material& material) {
-                       return material.opacity == 1 && material.map(MapSlot::opacity).empty();
-                     });
-}
-
 }  // namespace tracer
