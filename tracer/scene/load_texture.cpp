@@ -8,6 +8,7 @@
 #include "tracer/base/error.h"
 #include "tracer/base/file_bytes.h"
 #include "tracer/scene/decode_exr.h"
+#include "tracer/scene/hdr_runs.h"
 #include "tracer/scene/jpeg_tables.h"
 #include "tracer/scene/pnm_header.h"
 #include "tracer/scene/texture.h"
@@ -64,6 +65,7 @@ class Decoder {
     }
     if (!has_sound_huffman_tables(file_.bytes())) fail("a damaged JPEG: too many Huffman codes");
     if (!has_sound_pnm_header(file_.bytes())) fail("a PNM too large, or of more than 8 bits");
+    if (!has_sound_hdr_runs(file_.bytes())) fail("a damaged HDR: rows that end too early");
     const int channel_count = check_header();
     if (stbi_is_hdr_from_memory(bytes_, size_)) return decode_float();
     return decode_8_bit(channel_count);
