@@ -105,7 +105,11 @@ Status Session::State::status() {
   status.mrays_per_second = render.rates.recent_mrays_per_second();
   status.mrays_per_second_bvh = render.rates.mrays_per_second(TraceMode::bvh);
   status.mrays_per_second_brute_force = render.rates.mrays_per_second(TraceMode::brute_force);
+  status.is_finished = render.is_finished;
   status.samples = render.samples;
+  status.mean_samples = static_cast<double>(render.passes.samples) /
+                        (static_cast<double>(edits.size_px.x) * edits.size_px.y);
+  status.errors = render.errors;
   status.rays = render.rates.rays();
   status.seconds = render.rates.seconds();
   status.dropped_samples = render.passes.dropped;
@@ -143,7 +147,8 @@ void Session::set(const Edits& edits) {
   {
     const std::lock_guard lock(state_->mutex);
     const Edits before = std::exchange(state_->edits, edits);
-    state_->renderer.set_sample_limit(edits.sample_limit);
+    state_->renderer.set_limits({.samples = edits.sample_limit, .error = edits.error_limit});
+    state_->renderer.show(edits.shown);
     const bool needs_tree = is_new_tree(before, edits);
     const bool needs_picture = is_new_picture(before, edits);
     if (needs_tree || needs_picture) state_->quality_meter.postpone();

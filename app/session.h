@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/environment_source.h"
+#include "app/session_renderer.h"
 #include "app/session_tiles.h"
 #include "tracer/bvh/build.h"
 #include "tracer/bvh/quality.h"
@@ -38,6 +39,8 @@ struct Edits {
   tracer::BuildSettings build;
   bool improve = true;  // the tree by re-insertion, while and after the picture resolves
   int sample_limit = 1024;
+  double error_limit = 0;  // relMSE at which the picture is done; 0: the samples alone decide
+  ShownMap shown = ShownMap::picture;  // of the picture, in its tiles
 };
 
 /// What the program is doing and did, for the panel.
@@ -68,7 +71,10 @@ struct Status {
   double mrays_per_second = 0;              // of the last second of tracing
   double mrays_per_second_bvh = 0;          // of this picture's rays, with the tree
   double mrays_per_second_brute_force = 0;  // and without; 0 until known
+  bool is_finished = false;                 // the picture has reached a limit
   uint32_t samples = 0;                     // whole passes in the picture
+  double mean_samples = 0;                  // of its pixels
+  std::vector<ErrorPoint> errors;           // of this picture, in the order of time
   uint64_t rays = 0;                        // traced for this picture
   double seconds = 0;                       // spent tracing this picture
   uint64_t dropped_samples = 0;             // of this picture: not finite, so counted as black

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tracer/base/low_priority.h"
+#include "tracer/base/parallel.h"
 
 namespace app {
 namespace {
@@ -27,6 +28,7 @@ TraceMode mode_of(const tracer::World& world) {
 
 SessionRenderer::SessionRenderer(std::function<void()> notify)
     : notify_(std::move(notify)),
+      schedule_(tracer::RenderSettings{}),
       slice_seconds_(least_slice_seconds),
       slice_end_([this] { stop_.request(); }),
       thread_([this] { run(); }) {}
@@ -50,6 +52,7 @@ void SessionRenderer::restart(const PictureRequest& request) {
     rates_ = {};
     passes_ = {};
     pass_ = tracer::first_pass;
+    errors_.clear();
     stop_.request();
   }
   changed_.notify_one();
@@ -66,12 +69,23 @@ void SessionRenderer::resume_with(std::shared_ptr<const tracer::World> world) {
   changed_.notify_one();
 }
 
-void SessionRenderer::set_sample_limit(int sample_limit) {
+void SessionRenderer::set_limits(const RenderLimits& limits) {
   {
     const std::lock_guard lock(mutex_);
-    if (sample_limit_ == sample_limit) return;
-    sample_limit_ = sample_limit;
+    if (limits_ == limits) return;
+    limits_ = limits;
     if (!has_work()) stop_.request();
+  }
+  changed_.notify_one();
+}
+
+void SessionRenderer::show(ShownMap map) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (map_ == map) return;
+    map_ = map;
+    is_map_stale_ = true;
+    stop_.request();
   }
   changed_.notify_one();
 }
@@ -79,11 +93,14 @@ void SessionRenderer::set_sample_limit(int sample_limit) {
 RenderStatus SessionRenderer::status() {
   const std::lock_guard lock(mutex_);
   const bool is_picture_whole = pass_.sample > 0 || pass_.stride < tracer::first_pass.stride;
-  return {is_rendering_, is_picture_whole, pass_.sample, rates_, passes_};
+  const bool is_finished = current_.world && !requested_ && !has_work();
+  return {is_rendering_, is_picture_whole, is_finished, pass_.sample, rates_, passes_, errors_};
 }
 
 bool SessionRenderer::has_work() const {
-  return current_.world && pass_.sample < static_cast<uint32_t>(sample_limit_);
+  const bool is_good_enough =
+      limits_.error > 0 && !errors_.empty() && errors_.back().error.upper_bound() <= limits_.error;
+  return current_.world && pass_.sample < static_cast<uint32_t>(limits_.samples) && !is_good_enough;
 }
 
 void SessionRenderer::run() {
@@ -92,11 +109,15 @@ void SessionRenderer::run() {
   while (!is_quitting_) {
     if (requested_) {
       adopt_request(lock);
+    } else if (is_map_stale_ && film_) {
+      queue_all(lock);
     } else if (has_work()) {
       trace_slice(lock);
     } else {
       if (std::exchange(is_rendering_, false)) notify_();
-      changed_.wait(lock, [this] { return is_quitting_ || requested_ || has_work(); });
+      changed_.wait(lock, [this] {
+        return is_quitting_ || requested_ || (is_map_stale_ && film_) || has_work();
+      });
     }
   }
 }
@@ -104,6 +125,7 @@ void SessionRenderer::run() {
 void SessionRenderer::adopt_request(std::unique_lock<std::mutex>& lock) {
   current_ = *std::exchange(requested_, std::nullopt);
   slice_seconds_ = least_slice_seconds;
+  schedule_ = tracer::PassSchedule(current_.settings);
   const tracer::Vec2i size_px = current_.size_px;
   lock.unlock();  // a large film takes milliseconds to clear
   if (film_ && film_->size_px() == size_px) {
@@ -118,21 +140,31 @@ void SessionRenderer::trace_slice(std::unique_lock<std::mutex>& lock) {
   is_rendering_ = true;
   stop_.reset();
   const PictureRequest picture = current_;
-  const tracer::Pass pass = pass_;
+  const ShownMap map = map_;
   const uint64_t generation = generation_;
   lock.unlock();
 
   const double start = now_seconds();
   slice_end_.set(slice_seconds_);
-  const auto on_tile = [&](const tracer::Tile& tile) { queue_tile(tile, generation); };
-  const tracer::PassStats stats = tracer::render_pass(
-      *picture.world, *picture.integrator, picture.settings, pass, *film_, stop_, on_tile);
+  tracer::TileCallback on_tile;
+  // Errors are told between passes: while one runs, the tiles beside are being added to.
+  if (map != ShownMap::error) {
+    on_tile = [&](const tracer::Tile& tile) { queue_tile(tile, map, generation); };
+  }
+  const tracer::PassStats stats =
+      tracer::render_pass(*picture.world, *picture.integrator, picture.settings, schedule_.pass(),
+                          *film_, stop_, on_tile);
   slice_end_.clear();
   const double end = now_seconds();
   const bool was_in_vain = stats.samples == 0 && end - start >= slice_seconds_;
   // A stopped pixel begins anew, so a slice has to be long enough for one.
   if (was_in_vain) slice_seconds_ *= 2;
-  if (stats.is_complete) slice_seconds_ = least_slice_seconds;
+  std::optional<tracer::FilmError> error;
+  if (stats.is_complete) {
+    slice_seconds_ = least_slice_seconds;
+    schedule_.advance(*film_);
+    if (schedule_.is_estimate_due()) error = estimate_error(*film_);
+  }
 
   lock.lock();
   if (generation != generation_) return;
@@ -140,17 +172,25 @@ void SessionRenderer::trace_slice(std::unique_lock<std::mutex>& lock) {
   rates_.add(mode, stats.rays, end - start, end);
   passes_.add(stats);
   if (mode != mode_of(*current_.world)) rates_.forget_recent();
-  if (stats.is_complete) pass_ = tracer::next_pass(pass);
+  pass_ = schedule_.pass();
+  if (error) errors_.push_back({rates_.seconds(), *error});
+  if (error && map_ == ShownMap::error) is_map_stale_ = true;
   notify_();
 }
 
-void SessionRenderer::queue_tile(const tracer::Tile& tile, uint64_t generation) {
-  FinishedTile finished{tile, {}};
-  finished.pixels.reserve(static_cast<size_t>(tile.width()) * tile.height());
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    for (int x = tile.x0; x < tile.x1; ++x) finished.pixels.push_back(film_->mean(x, y));
-  }
-  tiles_.push(generation, std::move(finished));
+void SessionRenderer::queue_all(std::unique_lock<std::mutex>& lock) {
+  is_map_stale_ = false;
+  const ShownMap map = map_;
+  const uint64_t generation = generation_;
+  lock.unlock();
+  const std::vector<tracer::Tile> tiles = tracer::make_tiles(film_->size_px());
+  tracer::parallel_for_each_index(0, tiles.size(),
+                                  [&](size_t tile) { queue_tile(tiles[tile], map, generation); });
+  lock.lock();
+}
+
+void SessionRenderer::queue_tile(const tracer::Tile& tile, ShownMap map, uint64_t generation) {
+  tiles_.push(generation, {tile, shown_pixels(*film_, tile, map, schedule_.pass().sample)});
   notify_();
 }
 

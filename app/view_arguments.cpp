@@ -34,6 +34,8 @@ int run_view(const std::vector<std::string>& arguments) {
             [&](const std::string& text) {
               options.sample_limit = parse_whole_number(text, 1, 1000000);
             });
+  add_value(app, "--error", "E", "the picture is done when its error is at most this: relMSE",
+            [&](const std::string& text) { options.error_limit = parse_number(text, 1e-9, 100); });
   add_value(app, "--threads", "N", "threads to work on [all]", [&](const std::string& text) {
     options.thread_count = parse_whole_number(text, 1, max_threads);
   });

@@ -13,8 +13,9 @@ struct ViewOptions {
   std::optional<std::filesystem::path> model;
   std::optional<std::filesystem::path> view_file;  // else MODEL.view.json beside the model
   EnvironmentSource environment;
-  int sample_limit = 0;  // samples a pixel; 0: the panel's default
-  int frames = 0;        // more than 0: ends when the picture has so many samples a pixel
+  int sample_limit = 0;                 // samples a pixel; 0: the panel's default
+  std::optional<double> error_limit{};  // relMSE at which the picture is done
+  int frames = 0;  // more than 0: ends when the picture has so many samples a pixel, or is done
   std::optional<std::filesystem::path> screenshot;  // PNG of the whole window, written at the end
   int thread_count = 0;                             // 0: one a core
   tracer::Vec2i size_px{1280, 800};                 // of the window on an unscaled display

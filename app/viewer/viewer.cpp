@@ -48,6 +48,7 @@ Viewer::Viewer(const ViewOptions& options)
   settings_.set_environment(options.environment);
   environments_.make(options.environment);  // a file that cannot be read is said at once
   if (options.sample_limit > 0) settings_.sample_limit = options.sample_limit;
+  if (options.error_limit) settings_.error_limit = *options.error_limit;
   if (options.frames > 0) settings_.sample_limit = options.frames;
 }
 
@@ -107,8 +108,7 @@ void Viewer::watch_files() {
 }
 
 bool Viewer::has_finished_picture() const {
-  const bool is_finished = status_.samples >= static_cast<uint32_t>(settings_.sample_limit) &&
-                           !status_.is_rendering && !is_job_running();
+  const bool is_finished = status_.is_finished && !status_.is_rendering && !is_job_running();
   return adopted_generation_ > 0 && is_finished && !picture_.is_empty();
 }
 

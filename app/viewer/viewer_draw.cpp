@@ -103,7 +103,7 @@ void Viewer::draw_panel(const Ui& ui) {
   }
   draw_settings(ui, settings_, status_.builder);
   answer_edits();
-  draw_statistics(ui, status_, settings_.sample_limit);
+  draw_statistics(ui, status_, settings_.sample_limit, settings_.error_limit);
   ImGui::End();
 }
 

@@ -109,7 +109,8 @@ void Viewer::hold_back_build() {
 void Viewer::send_edits() {
   hold_back_build();
   viewpoint_.set_up(settings_.up, aspect());
-  picture_.set_exposure(settings_.render.exposure);
+  // The colours of a map stand for numbers.
+  picture_.set_exposure(settings_.shown == ShownMap::picture ? settings_.render.exposure : 0);
   const uint32_t triangle_count = status_.model ? status_.model->scene.mesh->triangle_count() : 0;
   const tracer::Vec2d size = round(area_.size * gui_.pixel_ratio());
   session_.set({.model_generation = adopted_generation_,
@@ -124,7 +125,9 @@ void Viewer::send_edits() {
                 .layout = settings_.layout,
                 .build = sent_build_,
                 .improve = settings_.improves_tree,
-                .sample_limit = settings_.sample_limit});
+                .sample_limit = settings_.sample_limit,
+                .error_limit = settings_.error_limit,
+                .shown = settings_.shown});
 }
 
 // Edits are sent, and what answers them soon is awaited, so that this frame shows it: a frame is

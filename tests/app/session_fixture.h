@@ -85,7 +85,7 @@ class SessionTest : public testing::Test {
 
   bool is_done() const {
     return status_.model && !status_.is_rendering && !status_.is_building && !status_.is_loading &&
-           !status_.is_improving && status_.samples >= static_cast<uint32_t>(edits_.sample_limit);
+           !status_.is_improving && status_.is_finished;
   }
 
   testing::AssertionResult show(const std::filesystem::path& path) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -211,6 +212,28 @@ TEST_F(WindowTest, trees_follow_a_hand_that_drags_on) {
   }
   const ChildProgram hand(find_program("xdotool"), moves);
   EXPECT_TRUE(wait_until([&] { return look_at(counts) != before; }));
+}
+
+TEST_F(WindowTest, a_picture_stops_at_its_error_and_maps_show_where_samples_went) {
+  write_ball(folder_.path() / "ball.obj", 10);
+  start({"ball.obj", "--spp", "60000", "--error", "0.5"});
+  ASSERT_TRUE(wait_for_widget("model"));
+  move_to(150, 20);
+  ASSERT_TRUE(wait_until_settled());
+  EXPECT_TRUE(find_widget("error-plot"));
+  const auto picture = look_at("picture");
+  click("show Samples");
+  move_to(150, 20);
+  ASSERT_TRUE(wait_until_settled());
+  const auto samples = look_at("picture");
+  EXPECT_NE(samples, picture);
+  // As many for every pixel; the pointer is drawn over some.
+  const auto same = std::ranges::count(samples, samples[samples.size() / 2]);
+  EXPECT_GT(static_cast<size_t>(same), samples.size() * 99 / 100);
+  click("show Picture");
+  move_to(150, 20);
+  ASSERT_TRUE(wait_until_settled());
+  EXPECT_EQ(look_at("picture"), picture);
 }
 
 TEST_F(WindowTest, frames_and_screenshot_write_the_whole_window) {

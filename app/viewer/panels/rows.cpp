@@ -67,9 +67,10 @@ void finish_control(const Ui& ui, const std::string& name, const std::string& he
 int segmented(const Ui& ui, const std::string& name, std::initializer_list<const char*> labels,
               int chosen) {
   const float gap = 2 * ui.scale;
-  const float room = ImGui::GetContentRegionAvail().x;
-  const float width =
-      (room - gap * static_cast<float>(labels.size() - 1)) / static_cast<float>(labels.size());
+  const auto width_of = [](const char* label) { return ImGui::CalcTextSize(label).x; };
+  float room = ImGui::GetContentRegionAvail().x - gap * static_cast<float>(labels.size() - 1);
+  for (const char* label : labels) room -= width_of(label);
+  const float padding = room / static_cast<float>(labels.size());  // the same around each
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(gap, ImGui::GetStyle().ItemSpacing.y));
   int index = 0;
   int result = chosen;
@@ -78,7 +79,8 @@ int segmented(const Ui& ui, const std::string& name, std::initializer_list<const
     ImGui::PushID(index);
     const ImGuiCol color = index == chosen ? ImGuiCol_Header : ImGuiCol_FrameBg;
     ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(color));
-    if (ImGui::Button((std::string(label) + "##" + name).c_str(), ImVec2(width, 0))) {
+    if (ImGui::Button((std::string(label) + "##" + name).c_str(),
+                      ImVec2(width_of(label) + padding, 0))) {
       result = index;
     }
     ImGui::PopStyleColor();

@@ -13,6 +13,9 @@ namespace {
 
 constexpr int greatest_sample_limit = 65536;
 constexpr float brightest_slider = 5;
+// Of the slider, whose right end stands for none.
+constexpr double least_error_limit = 1e-6;
+constexpr double no_error_limit = 1;
 
 /// A combo over a table of {name, label, what}, which closed says `shown`.
 template <class Entry>
@@ -104,6 +107,10 @@ bool is_main_tree_setting(std::string_view name) {
   return name == "max-depth" || name == "leaf-size";
 }
 
+bool is_main_picture_setting(std::string_view name) {
+  return name == "bounces" || name == "sampler" || name == "allocation" || name == "exposure";
+}
+
 /// The chosen builder, unless a quicker one stands in for it.
 std::string shown_builder(const ViewerSettings& settings, const tracer::Builder* used) {
   const bool is_stand_in =
@@ -175,23 +182,45 @@ void draw_sky(const Ui& ui, ViewerSettings& settings) {
                "From the model's +X, counter-clockwise as seen from above.");
 }
 
-void draw_picture_settings(const Ui& ui, ViewerSettings& settings) {
-  draw_choice(ui, "Integrator", "integrator", tracer::integrators(), settings.integrator);
-  control_label(ui, "Shading");
-  const int shading = segmented(ui, "shading", {"Flat", "Smooth"},
-                                settings.shading == tracer::Shading::smooth ? 1 : 0);
-  settings.shading = shading == 1 ? tracer::Shading::smooth : tracer::Shading::flat;
-  draw_fields(ui, settings.render, [](auto) { return true; });
-  draw_sky(ui, settings);
+void draw_limits(const Ui& ui, ViewerSettings& settings) {
   control_label(ui, "Samples");
   begin_slider(std::log(settings.sample_limit) / std::log(greatest_sample_limit), 0);
   ImGui::SliderInt("##sample-limit", &settings.sample_limit, 1, greatest_sample_limit, "up to %d",
                    ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   end_slider();
   finish_control(ui, "sample-limit", "Samples a pixel at which the picture is done.");
+  control_label(ui, "Stop at error");
+  double limit = settings.error_limit > 0 ? settings.error_limit : no_error_limit;
+  begin_slider(std::log(limit / least_error_limit) / std::log(no_error_limit / least_error_limit),
+               0);
+  ImGui::SliderScalar("##error-limit", ImGuiDataType_Double, &limit, &least_error_limit,
+                      &no_error_limit, limit < no_error_limit ? "%.2g" : "never",
+                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp |
+                          ImGuiSliderFlags_NoRoundToFormat);
+  end_slider();
+  settings.error_limit = limit < no_error_limit ? limit : 0;
+  finish_control(ui, "error-limit",
+                 "The picture is done when its error is at or under this: relMSE, the mean of "
+                 "(x - r)^2 / (r^2 + 0.01), told from its own samples.");
+}
+
+void draw_picture_settings(const Ui& ui, ViewerSettings& settings) {
+  draw_choice(ui, "Integrator", "integrator", tracer::integrators(), settings.integrator);
+  control_label(ui, "Shading");
+  const int shading = segmented(ui, "shading", {"Flat", "Smooth"},
+                                settings.shading == tracer::Shading::smooth ? 1 : 0);
+  settings.shading = shading == 1 ? tracer::Shading::smooth : tracer::Shading::flat;
+  draw_fields(ui, settings.render, is_main_picture_setting);
+  draw_sky(ui, settings);
+  draw_limits(ui, settings);
+  control_label(ui, "Show");
+  settings.shown = static_cast<ShownMap>(
+      segmented(ui, "show", {"Picture", "Samples", "Error"}, static_cast<int>(settings.shown)));
   control_label(ui, "Up");
   settings.up =
       static_cast<UpAxis>(segmented(ui, "up", {"Auto", "Y", "Z"}, static_cast<int>(settings.up)));
+  if (!closed_part(ui, "More##picture")) return;
+  draw_fields(ui, settings.render, [](auto name) { return !is_main_picture_setting(name); });
 }
 
 }  // namespace

@@ -27,6 +27,8 @@ struct ViewerSettings {
   tracer::SunPosition sun;
   std::optional<std::filesystem::path> environment_file;  // of the command line; else no map
   int sample_limit = 1024;
+  double error_limit = 0;  // relMSE; 0: none
+  ShownMap shown = ShownMap::picture;
   UpAxis up = UpAxis::automatic;
 
   tracer::Vec3d sky() const { return tracer::Vec3d(sky_color) * double{sky_brightness}; }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/replay.h"
+#include "app/viewer/panels/error_plot.h"
 #include "app/viewer/panels/histogram.h"
 
 namespace app {
@@ -136,16 +137,36 @@ void draw_tree(const Ui& ui, const Status& status) {
                  "Reading the file and making a mesh of it."}});
 }
 
-void draw_tracing(const Ui& ui, const Status& status, int sample_limit) {
+// Where samples go unevenly, a pixel has fewer than the noisiest ones.
+void draw_samples(const Ui& ui, const Status& status, uint32_t limit) {
+  const bool is_uneven = status.samples > 0 && status.mean_samples < 0.99 * status.samples;
+  number_row(ui, "Samples", {format_count(status.samples), fmt::format("/ {}", limit)},
+             is_uneven ? fmt::format("Of the noisiest pixels; {} in the mean.",
+                                     format_three_digits(status.mean_samples))
+                       : std::string("Of each pixel."));
+  ui.layout.note_last_item("samples");
+}
+
+void draw_error(const Ui& ui, const Status& status, double error_limit) {
+  const bool is_known = !status.errors.empty();
+  number_row(ui, "Error",
+             {is_known ? fmt::format("{:.2g}", status.errors.back().error.relmse) : "–", "relMSE"},
+             "Estimated from the picture's own samples: the mean of (x - r)^2 / (r^2 + 0.01), r "
+             "what the picture converges to.");
+  ui.layout.note_last_item("picture-error");
+  error_plot(ui, "error-plot", status.errors, error_limit);
+}
+
+void draw_tracing(const Ui& ui, const Status& status, int sample_limit, double error_limit) {
   number_row(ui, "Rate", rate(status.mrays_per_second));
   ui.layout.note_last_item("rate");
   const Quantity rays = format_large(static_cast<double>(status.rays));
   number_row(ui, "Rays", {rays.value, rays.unit});
   // What is traced stays when the limit is lowered below it.
   const uint32_t limit = std::max(static_cast<uint32_t>(sample_limit), status.samples);
-  number_row(ui, "Samples", {format_count(status.samples), fmt::format("/ {}", limit)});
-  ui.layout.note_last_item("samples");
+  draw_samples(ui, status, limit);
   number_row(ui, "Time", format_seconds(status.seconds));
+  draw_error(ui, status, error_limit);
   if (status.dropped_samples > 0) {
     number_row(ui, "Dropped", {format_count(status.dropped_samples), ""},
                count_of_dropped(status.dropped_samples) + ". For the first: " + status.replay);
@@ -161,11 +182,11 @@ double speed_up_of(const Status& status) {
   return status.mrays_per_second_bvh / status.mrays_per_second_brute_force;
 }
 
-void draw_statistics(const Ui& ui, const Status& status, int sample_limit) {
+void draw_statistics(const Ui& ui, const Status& status, int sample_limit, double error_limit) {
   if (!section(ui, "Statistics")) return;
   draw_tree(ui, status);
   ImGui::Separator();
-  draw_tracing(ui, status, sample_limit);
+  draw_tracing(ui, status, sample_limit, error_limit);
   draw_speed_up(ui, status);
 }
 

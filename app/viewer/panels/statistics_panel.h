@@ -6,8 +6,8 @@
 
 namespace app {
 
-/// The part of the panel that says what was done.
-void draw_statistics(const Ui& ui, const Status& status, int sample_limit);
+/// The part of the panel that says what was done. `error_limit` 0: none.
+void draw_statistics(const Ui& ui, const Status& status, int sample_limit, double error_limit);
 
 /// How many times as many rays a second the tree gives in this very view; 0 until both rates are
 /// known.
