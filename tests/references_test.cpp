@@ -38,7 +38,7 @@ TEST(References, every_key_is_listed_and_every_listed_key_is_used) {
       used.insert(key);
     }
   };
-  for (const char* folder : {"tracer", "app", "assets"}) {
+  for (const char* folder : {"tracer", "app", "assets", "tests/bench"}) {
     for (const SourceFile& file : source_files(folder)) note(file.path, file.text);
   }
   for (const char* folder : {"docs", "assets"}) {

@@ -11,6 +11,7 @@ constexpr Command table[] = {
     {"build", "time and memory of trees, beside Embree", compare_builds},
     {"orbit", "from mouse events to changed pixels", measure_orbit},
     {"kernels", "ray-triangle tests: time against error, beside Embree", compare_kernels},
+    {"error", "path tracing: error against time, beside Cycles", compare_errors},
     {"exactness", "what exact leaves cost the traversal", measure_exactness},
     {"load", "loaders of OBJ files: speed, memory, wrong numbers", compare_loads},
     {"launch", "from starting the program to the first traced picture", measure_launch},

@@ -16,6 +16,7 @@ int compare_builds(const Options& options);
 int measure_orbit(const Options& options);
 int compare_kernels(const Options& options);
 int measure_exactness(const Options& options);
+int compare_errors(const Options& options);
 int compare_loads(const Options& options);
 int measure_launch(const Options& options);
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "tests/bench/compare/commands.h"
+#include "tests/bench/compare/error_scenes.h"
 
 namespace bench {
 namespace {
@@ -42,8 +43,46 @@ void add_hidden_options(CLI::App& app, Options& options) {
   app.add_option("--threads", options.thread_count)->group("");
 }
 
+std::string list_of_error_scenes() {
+  std::string list;
+  for (const ErrorSceneEntry& entry : error_scene_entries()) {
+    list += fmt::format("  {:<12} {}\n", entry.name, entry.what);
+  }
+  return list;
+}
+
+void check_error_scenes(const Options& options) {
+  for (const std::string& name : options.scenes) {
+    const auto entries = error_scene_entries();
+    if (std::ranges::find(entries, name, &ErrorSceneEntry::name) != entries.end()) continue;
+    throw std::invalid_argument("there is no scene '" + name + "'; there are:\n" +
+                                list_of_error_scenes());
+  }
+}
+
+/// The options of `error`; what a quick run takes unless it is told.
+void add_error_options(CLI::App& app, Options& options) {
+  app.add_flag_callback(
+      "--variants", [&] { options.variants = VariantChoice::all; },
+      "error: other samplers, trees and settings too");
+  app.add_option("--seeds", options.seed_count, "error: pictures of each kind [16]")
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--longest", options.longest_seconds, "error: seconds of the longest render [60]")
+      ->check(CLI::Range(0.01, 1e5));
+  app.add_option("--reference", options.reference_seconds,
+                 "error: seconds of each half of the reference [600]")
+      ->check(CLI::Range(0.01, 1e6));
+}
+
+void shorten_errors(const CLI::App& app, Options& options) {
+  if (app.count("--seeds") == 0) options.seed_count = 2;
+  if (app.count("--longest") == 0) options.longest_seconds = 1;
+  if (app.count("--reference") == 0) options.reference_seconds = 4;
+}
+
 void check_scenes(const Options& options) {
   if (options.command == "load") return;  // it has files instead
+  if (options.command == "error") return check_error_scenes(options);
   for (const std::string& name : options.scenes) {
     if (find_scene_entry(name) != nullptr) continue;
     throw std::invalid_argument("there is no scene '" + name + "'; there are:\n" +
@@ -58,7 +97,8 @@ std::optional<Options> parse_options(int argument_count, char** arguments) {
   bool is_quick = false;
   bool has_all_builders = false;
   CLI::App app("Compares Boxwood with others, and measures what a user waits for");
-  app.footer("Commands:\n" + list_of_commands() + "\nScenes:\n" + list_of_scenes());
+  app.footer("Commands:\n" + list_of_commands() + "\nScenes:\n" + list_of_scenes() +
+             "\nScenes of error:\n" + list_of_error_scenes());
   app.add_option("command", options.command, "what to measure")
       ->required()
       ->check(CLI::IsMember(command_names()));
@@ -72,6 +112,7 @@ std::optional<Options> parse_options(int argument_count, char** arguments) {
   app.add_option("--seconds", options.seconds_a_run, "rays: of one run, at most")
       ->check(CLI::PositiveNumber);
   app.add_option("--folder", options.folder, "where files are written");
+  add_error_options(app, options);
   add_hidden_options(app, options);
   try {
     app.parse(argument_count, arguments);
@@ -80,6 +121,7 @@ std::optional<Options> parse_options(int argument_count, char** arguments) {
     return std::nullopt;
   }
   if (is_quick) options.effort = Effort::quick;
+  if (is_quick) shorten_errors(app, options);
   if (is_quick && repeats->count() == 0) options.repeat_count = 3;
   if (has_all_builders) options.builders = BuilderChoice::all;
   check_scenes(options);

@@ -11,6 +11,7 @@
 namespace bench {
 
 enum class BuilderChoice { standard, all };
+enum class VariantChoice { standard, all };
 
 struct Options {
   std::string command;              // a name of commands()
@@ -19,6 +20,11 @@ struct Options {
   int repeat_count = 5;
   BuilderChoice builders = BuilderChoice::standard;
   double seconds_a_run = 0.4;  // rays are thinned until a run of the slowest takes no more
+  // error: seeds, seconds of the longest render and of each half of the reference.
+  VariantChoice variants = VariantChoice::standard;
+  int seed_count = 16;
+  double longest_seconds = 60;
+  double reference_seconds = 600;
   std::filesystem::path folder = "build/bench";  // of the files it writes
   // load-once: what a process of its own loads.
   std::string loader;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "tests/bench/compare/log_axis.h"
 #include "tests/bench/compare/place_labels.h"
 #include "tests/bench/compare/svg.h"
 
@@ -28,18 +29,6 @@ constexpr double panel_foot = 22;
 constexpr double band_height = 62;
 constexpr double footer_height = 64;
 constexpr const char* quiet = "#666666";
-constexpr const char* grid = "stroke=\"#E4E4E4\"";
-
-/// Powers of ten and what lies between them, onto pixels.
-struct LogScale {
-  double low, high;        // of the values
-  double at_low, at_high;  // in pixels
-
-  double operator()(double value) const {
-    const double part = std::log10(value / low) / std::log10(high / low);
-    return at_low + (at_high - at_low) * part;
-  }
-};
 
 struct Place {
   Rectangle plot;
@@ -100,44 +89,6 @@ Place place_of(const ScatterPanel& panel, std::pair<double, double> x_range, dou
   place.x = {x_range.first, x_range.second, place.plot.left, place.plot.right};
   place.y = {y_low, y_high, place.plot.bottom - band, place.plot.top};
   return place;
-}
-
-std::string superscript(int value) {
-  constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  if (value < 0) return "⁻" + superscript(-value);
-  return (value >= 10 ? superscript(value / 10) : "") + digits[value % 10];
-}
-
-std::string decade(double value) {
-  if (value > 0.0009 && value < 1001) return fmt::format("{:g}", value);
-  return "10" + superscript(static_cast<int>(std::lround(std::log10(value))));
-}
-
-std::string y_axis(const Place& place) {
-  std::string drawn;
-  const double decades = std::log10(place.y.high / place.y.low);
-  const double step = std::pow(10, std::max(1.0, std::ceil(decades / 6)));
-  for (double value = place.y.low; value < place.y.high * 1.01; value *= step) {
-    drawn += line(place.plot.left, place.y(value), place.plot.right, place.y(value), grid);
-    drawn += text(place.plot.left - 8, place.y(value) + 4,
-                  {.size = 12, .color = quiet, .anchor = Anchor::end}, decade(value));
-  }
-  return drawn;
-}
-
-std::string x_axis(const Place& place) {
-  std::string drawn;
-  for (double power = 1e-3; power < 1e7; power *= 10) {
-    for (const double digit : {1, 2, 5}) {
-      const double value = digit * power;
-      if (value < place.x.low || value > place.x.high) continue;
-      drawn += line(place.x(value), place.plot.top, place.x(value), place.plot.bottom, grid);
-      drawn +=
-          text(place.x(value), place.plot.bottom + 16,
-               {.size = 12, .color = quiet, .anchor = Anchor::middle}, fmt::format("{:g}", value));
-    }
-  }
-  return drawn;
 }
 
 std::string zero_band(const ScatterPanel& panel, const Place& place) {
@@ -202,8 +153,8 @@ std::string points_of(const ScatterPanel& panel, const Place& place) {
 std::string panel_svg(const ScatterPanel& panel, std::pair<double, double> x_range, double top) {
   const Place place = place_of(panel, x_range, top);
   return text(margin, top + 24, {.size = 17, .weight = "bold"}, panel.title) +
-         zero_band(panel, place) + x_axis(place) + y_axis(place) + front(panel, place) +
-         points_of(panel, place);
+         zero_band(panel, place) + x_axis(place.plot, place.x) + y_axis(place.plot, place.y) +
+         front(panel, place) + points_of(panel, place);
 }
 
 std::string legend(const ScatterChart& chart) {
