@@ -43,10 +43,14 @@ Json describe_materials(const tracer::Scene& scene) {
   return materials;
 }
 
-Json describe_skips(const tracer::Scene& scene) {
+Json describe_skips(const tracer::ImportedScene& imported) {
   Json skips = Json::array();
-  for (const auto& [what, why] : tracer::skipped_work(tracer::make_profile(scene))) {
+  for (const auto& [what, why] : tracer::skipped_work(tracer::make_profile(imported.scene))) {
     skips.push_back({{"what", what}, {"why", why}});
+  }
+  if (imported.dropped_texcoords > 0) {
+    skips.push_back({{"what", fmt::format("{} texture coordinates", imported.dropped_texcoords)},
+                     {"why", "no used material has a texture"}});
   }
   return skips;
 }
@@ -74,7 +78,7 @@ Json describe(const std::filesystem::path& path, const tracer::ImportedScene& im
       {"bounds", {{"min", to_json(imported.bounds.min)}, {"max", to_json(imported.bounds.max)}}},
       {"origin", to_json(mesh.origin)},
       {"materials", describe_materials(imported.scene)},
-      {"skipped", describe_skips(imported.scene)},
+      {"skipped", describe_skips(imported)},
       {"dropped_faces", imported.dropped_faces},
       {"warnings", {{"count", imported.warnings.count()}, {"messages", messages}}}};
 }

@@ -81,6 +81,21 @@ TEST(ImportObj, is_smooth_where_the_file_has_normals_and_flat_elsewhere) {
   EXPECT_EQ(smooth.scene.shading, Shading::smooth);
 }
 
+TEST(ImportObj, texture_coordinates_are_kept_where_a_used_material_has_a_texture_alone) {
+  const TemporaryFolder folder;
+  folder.write("m.mtl", "newmtl plain\nnewmtl mapped\nmap_Kd no.png\n");
+  const std::string faces = "f 1/1 2/2 3/3\n";
+  const ImportedScene plain =
+      import(folder.write("plain.obj", "mtllib m.mtl\n" + square + "usemtl plain\n" + faces));
+  EXPECT_EQ(plain.dropped_texcoords, 4u);
+  EXPECT_TRUE(plain.scene.mesh->texcoords.empty());
+  EXPECT_TRUE(plain.scene.mesh->texcoord_indices.empty());
+  const ImportedScene mapped =
+      import(folder.write("mapped.obj", "mtllib m.mtl\n" + square + "usemtl mapped\n" + faces));
+  EXPECT_EQ(mapped.dropped_texcoords, 0u);
+  EXPECT_EQ(mapped.scene.mesh->texcoords.size(), 4u);
+}
+
 TEST(ImportObj, a_missing_library_is_a_warning_and_its_materials_are_grey) {
   const TemporaryFolder folder;
   const auto path = folder.write(

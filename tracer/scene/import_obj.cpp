@@ -33,6 +33,14 @@ std::vector<bool> find_textured_materials(const Mesh& mesh, size_t material_coun
   return is_textured;
 }
 
+/// Nobody else asks for coordinates of textures. Returns how many there were.
+size_t drop_texcoords(Mesh& mesh) {
+  const size_t count = mesh.texcoords.size();
+  mesh.texcoords = {};
+  mesh.texcoord_indices = {};
+  return count;
+}
+
 }  // namespace
 
 ImportedScene import_obj(const std::filesystem::path& path, Progress& progress) {
@@ -56,6 +64,7 @@ ImportedScene import_obj(const std::filesystem::path& path, Progress& progress) 
   result.warnings.append(imported.library_warnings);
   result.files = std::move(imported.files);
 
+  if (imported.textures.empty()) result.dropped_texcoords = drop_texcoords(made.mesh);
   Scene scene;
   scene.lights = std::make_shared<const EmissiveTriangles>(
       make_emissive_triangles(made.mesh, imported.materials));

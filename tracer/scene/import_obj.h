@@ -19,6 +19,7 @@ struct ImportedScene {
   int64_t dropped_faces = 0;  // polygons left out
   uint32_t object_count = 0;
   uint32_t group_count = 0;
+  size_t dropped_texcoords = 0;  // that no texture is looked up by
   uint64_t file_bytes = 0;
   // That the OBJ names and the scene depends on: material libraries and textures, those that cannot
   // be read too.
