@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/instruction_sets.h"
 #include "tests/support/light_statistics.h"
 #include "tracer/base/directions.h"
 
@@ -68,6 +69,33 @@ TEST(LightTree, a_pick_says_the_probability_that_is_asked_for_later) {
     ASSERT_GT(pick.probability, 0);
     ASSERT_NEAR(pick.probability / tree.probability(receiver, pick.light), 1, 1e-12);
   }
+}
+
+TEST(LightTree, picks_have_the_same_bits_alone_and_together_with_every_instruction_set) {
+  Random random(9);
+  const LightTree tree(random_lights(700, random));
+  std::vector<LightReceiver> receivers;
+  std::vector<double> u;
+  for (int i = 0; i < 1000; ++i) {
+    receivers.push_back(random_receiver(random, i % 2 ? 6 : 1e6));
+    u.push_back(i == 0 ? 0 : i == 1 ? 1 - 0x1p-53 : uniform(random, 0, 1));
+  }
+  std::vector<LightTree::Pick> expected;
+  std::vector<double> probabilities;
+  for (size_t i = 0; i < u.size(); ++i) {
+    expected.push_back(tree.pick(receivers[i], u[i]));
+    probabilities.push_back(tree.probability(receivers[i], static_cast<uint32_t>(i % 700)));
+  }
+  for_each_instruction_set([&](const char* name) {
+    std::vector<LightTree::Pick> picks(u.size());
+    tree.pick(receivers, u, picks);
+    for (size_t i = 0; i < u.size(); ++i) {
+      ASSERT_EQ(picks[i].light, expected[i].light) << name << ' ' << i;
+      ASSERT_EQ(picks[i].probability, expected[i].probability) << name << ' ' << i;
+      ASSERT_EQ(tree.probability(receivers[i], static_cast<uint32_t>(i % 700)), probabilities[i])
+          << name << ' ' << i;
+    }
+  });
 }
 
 struct Counts {

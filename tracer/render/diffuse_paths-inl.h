@@ -150,11 +150,12 @@ class DiffusePaths {
   void add_light() {
     samplers_.next(samples_.data(), count_, &u_[0]);
     for (size_t i = 0; i < count_; ++i) {
-      const LightReceiver receiver{origin_.get<Vec3f>(i), Vec3f(normal_.get<Vec3d>(i))};
-      const Lights::Pick pick = lights_.pick(receiver, u_[i]);
-      light_[i] = pick.triangle;
-      light_probability_[i] = pick.probability;
-      triangle_.set(i, mesh_, pick.triangle);
+      receivers_[i] = {origin_.get<Vec3f>(i), Vec3f(normal_.get<Vec3d>(i))};
+    }
+    lights_.pick({receivers_.data(), count_}, {&u_[0], count_}, {picks_.data(), count_});
+    for (size_t i = 0; i < count_; ++i) {
+      light_probability_[i] = picks_[i].probability;
+      triangle_.set(i, mesh_, picks_[i].triangle);
     }
     samplers_.next_2d(samples_.data(), count_, &u_[0], &v_[0]);
     for (size_t i = 0; i < count_; i += step()) {
@@ -182,7 +183,7 @@ class DiffusePaths {
     for (size_t k = 0; k < shadow_count; ++k) {
       if (is_occluded_[k]) continue;
       const uint32_t i = lit_[k];
-      const Material& material = (*scene_.materials)[mesh_.material_of(light_[i])];
+      const Material& material = (*scene_.materials)[mesh_.material_of(picks_[i].triangle)];
       const Vec3d radiance = albedo_.get<Vec3d>(i) * Vec3d(material.emission) * weight_[i];
       block_.radiance[samples_[i]] += throughput_.get<Vec3d>(i) * radiance;
     }
@@ -252,7 +253,8 @@ class DiffusePaths {
   Columns<float> origin_;
   Column<double> above_;
   // Light that may reach them.
-  std::array<uint32_t, max_size> light_;
+  std::array<LightReceiver, max_size> receivers_;
+  std::array<Lights::Pick, max_size> picks_;
   Column<double> light_probability_;
   Column<double> weight_;
   std::array<uint32_t, max_size> lit_;

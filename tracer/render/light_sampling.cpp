@@ -2,9 +2,11 @@
 #include "tracer/render/light_sampling.h"
 
 #include <algorithm>
+#include <array>
 
 #include "tracer/base/directions.h"
 #include "tracer/render/directions-inl.h"
+#include "tracer/render/integrator.h"
 
 namespace tracer {
 namespace {
@@ -41,6 +43,19 @@ Lights::Pick Lights::pick(const LightReceiver& receiver, double which) const {
   const double rest = (which - sky_share_) / triangle_share_;
   const LightTree::Pick pick = pick_triangle(receiver, rest);
   return {triangles_.triangles[pick.light], triangle_share_ * pick.probability};
+}
+
+void Lights::pick(std::span<const LightReceiver> receivers, std::span<const double> which,
+                  std::span<Pick> picks) const {
+  if (sky_share_ > 0 || triangles_.tree.empty()) {
+    for (size_t i = 0; i < receivers.size(); ++i) picks[i] = pick(receivers[i], which[i]);
+    return;
+  }
+  std::array<LightTree::Pick, SampleBlock::max_size> picked;
+  triangles_.tree.pick(receivers, which, std::span(picked).first(receivers.size()));
+  for (size_t i = 0; i < receivers.size(); ++i) {
+    picks[i] = {triangles_.triangles[picked[i].light], picked[i].probability};
+  }
 }
 
 LightSample Lights::sample(const Surface& surface, double which, const Vec2d& where) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+
 #include "tracer/render/sky.h"
 
 namespace tracer {
@@ -30,6 +32,9 @@ class Lights {
     double probability = 0;
   };
   Pick pick(const LightReceiver& receiver, double which) const;
+  /// The same for as many receivers at once, SampleBlock::max_size at most.
+  void pick(std::span<const LightReceiver> receivers, std::span<const double> which,
+            std::span<Pick> picks) const;
   /// A direction of the sky, or a triangle by power, and by place where they are many, and a point
   /// on it by area. `which` and `where` uniform in [0, 1) and [0, 1)^2. Not empty().
   LightSample sample(const Surface& surface, double which, const Vec2d& where) const;

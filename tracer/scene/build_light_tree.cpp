@@ -83,7 +83,7 @@ class LightTreeBuilder {
   }
 
   void set_child(uint32_t node, uint32_t child, const Group& group, int depth) {
-    set_bounds(tree_.nodes_[node].quads[child / 4], child % 4, group);
+    set_bounds(tree_.nodes_[node], child, group);
     if (group.size() == 1) {
       const uint32_t only = order_[group.begin];
       tree_.places_[only] = {node, child};
@@ -94,7 +94,7 @@ class LightTreeBuilder {
     tree_.nodes_[node].children[child] = inner;
   }
 
-  void set_bounds(LightTree::Quad& quad, uint32_t lane, const Group& group) const {
+  void set_bounds(LightTree::Node& node, uint32_t child, const Group& group) const {
     // What is too faint for a float counts as the faintest: it is to be found, if seldom.
     constexpr float faintest = 0x1p-100f;
     const Vec3f center = group.box.center();
@@ -107,16 +107,16 @@ class LightTreeBuilder {
     for (size_t i = group.begin; i < group.end; ++i) {
       cos_spread = std::min(cos_spread, std::abs(glm::dot(axis, light(i).normal)));
     }
-    quad.x[lane] = static_cast<float>(placed.x);
-    quad.y[lane] = static_cast<float>(placed.y);
-    quad.z[lane] = static_cast<float>(placed.z);
-    quad.radius_squared[lane] = grown * grown;
-    quad.axis_x[lane] = static_cast<float>(axis.x);
-    quad.axis_y[lane] = static_cast<float>(axis.y);
-    quad.axis_z[lane] = static_cast<float>(axis.z);
-    quad.cos_spread[lane] = static_cast<float>(cos_spread);
-    quad.sin_spread[lane] = static_cast<float>(std::sqrt(1 - cos_spread * cos_spread));
-    quad.power[lane] = std::max(static_cast<float>(group.power / total_power_), faintest);
+    node.x[child] = static_cast<float>(placed.x);
+    node.y[child] = static_cast<float>(placed.y);
+    node.z[child] = static_cast<float>(placed.z);
+    node.radius_squared[child] = grown * grown;
+    node.axis_x[child] = static_cast<float>(axis.x);
+    node.axis_y[child] = static_cast<float>(axis.y);
+    node.axis_z[child] = static_cast<float>(axis.z);
+    node.cos_spread[child] = static_cast<float>(cos_spread);
+    node.sin_spread[child] = static_cast<float>(std::sqrt(1 - cos_spread * cos_spread));
+    node.power[child] = std::max(static_cast<float>(group.power / total_power_), faintest);
   }
 
   /// The mean of the normals by power, all turned to the first's side.

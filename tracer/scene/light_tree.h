@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "tracer/geometry/box4.h"
+#include "tracer/geometry/box.h"
 
 namespace tracer {
 
@@ -38,37 +38,41 @@ class LightTree {
   explicit LightTree(std::span<const LightBounds> lights);
 
   bool empty() const { return nodes_.empty(); }
-  /// u uniform in [0, 1). The tree is not empty.
-  Pick pick(const LightReceiver& receiver, double u) const;
+  /// A light for each receiver. u uniform in [0, 1), one a receiver. The tree is not empty. Many
+  /// receivers at once take half the time of one by one, and have the same bits.
+  void pick(std::span<const LightReceiver> receivers, std::span<const double> u,
+            std::span<Pick> picks) const;
+  Pick pick(const LightReceiver& receiver, double u) const {
+    Pick picked;
+    pick({&receiver, 1}, {&u, 1}, {&picked, 1});
+    return picked;
+  }
   /// With which `pick` returns that light.
   double probability(const LightReceiver& receiver, uint32_t light) const;
 
  private:
   friend class LightTreeBuilder;
+  friend class LightTreeKernels;
 
   static constexpr size_t width = 8;
   static constexpr uint32_t leaf_bit = 0x80000000u;
 
-  /// Four children of a node; power 0 where there is none.
-  struct Quad {
-    Float4 x{}, y{}, z{}, radius_squared{};  // sphere about all points
-    Float4 axis_x{}, axis_y{}, axis_z{};     // the lights' normals are
-    Float4 cos_spread{}, sin_spread{};       // no further from it or its opposite
-    Float4 power{};                          // parts of all lights'
-  };
+  using Eight = std::array<float, width>;
   struct Place {
     uint32_t node = 0;
     uint32_t child = 0;
   };
-  struct Node {
-    std::array<Quad, width / 4> quads;
+  /// Of each child; power 0 where there is none.
+  struct alignas(64) Node {
+    Eight x{}, y{}, z{}, radius_squared{};   // sphere about all points
+    Eight axis_x{}, axis_y{}, axis_z{};      // the lights' normals are
+    Eight cos_spread{}, sin_spread{};        // no further from it or its opposite
+    Eight power{};                           // parts of all lights'
     std::array<uint32_t, width> children{};  // a node, or a light and leaf_bit
     Place parent;                            // of the root: itself
   };
-  using Weights = std::array<float, width>;
 
   LightReceiver placed(const LightReceiver& receiver) const;
-  static Weights weights_of(const Node& node, const LightReceiver& placed_receiver);
 
   std::vector<Node> nodes_;    // the root first
   std::vector<Place> places_;  // of the lights

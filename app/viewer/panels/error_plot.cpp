@@ -108,6 +108,7 @@ void error_plot(const Ui& ui, const std::string& name, std::span<const ErrorPoin
     list.AddLine(ImVec2(min.x, place), ImVec2(max.x, place), ImGui::GetColorU32(palette::warning));
   }
   std::vector<ImVec2> line;
+  line.reserve(drawn.size());
   for (const ErrorPoint& point : drawn) {
     line.emplace_back(x.place(point.seconds), y.place(point.error.relmse));
   }
