@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "app/command_parser.h"
@@ -23,9 +25,25 @@ constexpr const char* examples =
     "  boxwood render cow.obj -o cow.png\n"
     "  boxwood render cow.obj -o cow.exr --time 30 --size 1920x1080\n"
     "  boxwood render cow.obj -o cow.png --error 1e-3 --allocation adaptive\n"
+    "  boxwood render cow.obj -o cow.exr --aov albedo,normal,depth\n"
     "  boxwood render cow.obj -o cow.png --eye 3,2,4 --target 0,0.5,0 --fov 30\n"
     "  boxwood render cow.obj -o cow.pfm --bvh off --spp 1 --stats cow.json\n"
     "  boxwood render cow.obj --pixel 640,360 --sample 0";
+
+std::vector<const tracer::Aov*> parse_aovs(const std::string& text) {
+  std::vector<const tracer::Aov*> aovs;
+  if (text == "all") {
+    for (const tracer::Aov& aov : tracer::aovs()) aovs.push_back(&aov);
+    return aovs;
+  }
+  for (size_t first = 0; first <= text.size();) {
+    const size_t end = std::min(text.find(',', first), text.size());
+    const tracer::Aov* aov = chosen_from(tracer::aovs(), text.substr(first, end - first));
+    if (std::ranges::find(aovs, aov) == aovs.end()) aovs.push_back(aov);
+    first = end + 1;
+  }
+  return aovs;
+}
 
 void add_output(CLI::App& app, RenderOptions& options) {
   add_path(app, "MODEL", "", "an OBJ file", [&](const auto& path) {
@@ -39,6 +57,10 @@ void add_output(CLI::App& app, RenderOptions& options) {
              }
              options.output = path;
            })
+      ->group("Output");
+  add_value(app, "--aov", "NAME,...|all",
+            fmt::format("layers of an .exr: {}", names_in(tracer::aovs())),
+            [&](const std::string& text) { options.aovs = parse_aovs(text); })
       ->group("Output");
   add_path(app, "--stats", "FILE", "counts, times and rays per second as JSON",
            [&](const auto& path) { options.stats_file = path; })
@@ -149,6 +171,9 @@ int run_render(const std::vector<std::string>& arguments) {
   add_environment(parser.options(), options.environment, "Camera");
   add_tree(parser.options(), options);
   if (parser.parse(arguments) == Parsed::help_was_printed) return exit_code::success;
+  if (!options.output && !options.aovs.empty()) {
+    throw OptionError("boxwood render: --aov needs a picture to put its layers into: -o FILE.exr");
+  }
   if (!options.output && !options.pixel) {
     throw OptionError("boxwood render: say where the picture goes: -o FILE.png, .exr or .pfm");
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/render_command.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -54,6 +55,11 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 // Hours of work should not end at a misspelt folder.
 void check_outputs(const RenderOptions& options) {
   if (options.output) tracer::check_writable(*options.output);
+  if (!options.aovs.empty() && !tracer::can_hold_layers(*options.output)) {
+    throw OptionError(
+        fmt::format("--aov: {} cannot hold layers; write an EXR: -o {}", options.output->string(),
+                    std::filesystem::path(*options.output).replace_extension(".exr").string()));
+  }
   if (!options.stats_file) return;
   check_stats_file(*options.stats_file);
   if (options.output && is_same_file(*options.output, *options.stats_file)) {
@@ -147,10 +153,11 @@ class RenderJob {
       fmt::print(stderr, "stopped before the first sample: nothing written\n");
       return false;
     }
+    const std::vector<tracer::ImageLayer> layers = render_layers(film);
     progress_.start_stage("writing");
     const Stopwatch start;
     write_image(*options_.output, film.image(), options_.render.exposure,
-                picture_metadata(options_, report_));
+                picture_metadata(options_, report_), layers);
     report_.seconds.write = start.seconds();
     bar_.reset();
     print_dropped_samples();
@@ -161,6 +168,15 @@ class RenderJob {
       fmt::print(stderr, "{}\n", summary(options_, report_));
     }
     return true;
+  }
+
+  // An interrupted picture has them too, of one sample.
+  std::vector<tracer::ImageLayer> render_layers(const tracer::Film& film) {
+    if (options_.aovs.empty()) return {};
+    progress_.start_stage("finding layers");
+    const uint32_t most_samples =
+        interrupt_.was_interrupted() ? 1 : std::max(report_.whole_sample_count, 1u);
+    return render_aovs(options_.aovs, world_, options_.render, film, most_samples);
   }
 
   void print_dropped_samples() const {

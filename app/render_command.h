@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "app/environment_source.h"
 #include "tracer/bvh/build.h"
+#include "tracer/render/aov.h"
 #include "tracer/render/integrator.h"
 #include "tracer/scene/camera.h"
 
@@ -17,6 +19,7 @@ namespace app {
 struct RenderOptions {
   std::filesystem::path model;
   std::optional<std::filesystem::path> output;
+  std::vector<const tracer::Aov*> aovs;  // in the layers of an EXR
 
   std::optional<int> sample_count;  // a pixel
   std::optional<double> seconds;    // instead of a sample_count

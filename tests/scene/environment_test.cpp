@@ -50,7 +50,7 @@ TEST_F(LoadEnvironment, an_exr_has_its_values_and_what_is_no_radiance_is_black) 
   Image image{{4, 2}, std::vector<Vec3f>(8, {3, 2, 1})};
   image.pixels[0] = {std::numeric_limits<float>::quiet_NaN(), -1, 5};
   image.pixels[1] = Vec3f(std::numeric_limits<float>::infinity());
-  const auto environment = load_environment(folder_.write("sky.exr", encode_exr(image, 0, {})));
+  const auto environment = load_environment(folder_.write("sky.exr", encode_exr(image, {}, {})));
   const LatLongImage& loaded = environment->map().image();
   EXPECT_EQ(loaded.texels[0], Vec3f(0, 0, 5));
   EXPECT_EQ(loaded.texels[1], Vec3f(1e30f));
@@ -64,7 +64,7 @@ TEST_F(LoadEnvironment, files_that_are_no_map_are_refused_with_the_reason) {
   EXPECT_NE(error_of("text.hdr", "this is no picture").find("neither"), std::string::npos);
   EXPECT_NE(error_of("empty.exr", "").find("neither"), std::string::npos);
   EXPECT_NE(error_of("huge.hdr", hdr_of(2'000'000, 1'000'000, "")).find("too"), std::string::npos);
-  const std::string exr = encode_exr({{4, 2}, std::vector<Vec3f>(8, Vec3f(1))}, 0, {});
+  const std::string exr = encode_exr({{4, 2}, std::vector<Vec3f>(8, Vec3f(1))}, {}, {});
   EXPECT_NE(error_of("cut.exr", exr.substr(0, exr.size() / 2)).find("OpenEXR"), std::string::npos);
   EXPECT_THROW(load_environment(folder_ / "missing.hdr"), LoadError);
 }
@@ -72,7 +72,7 @@ TEST_F(LoadEnvironment, files_that_are_no_map_are_refused_with_the_reason) {
 TEST_F(LoadEnvironment, damaged_pictures_throw_or_load_and_never_more) {
   const std::string texel("\x80\x40\x00\x81", 4);
   const std::string hdr = hdr_of(4, 2, repeated(texel, 8));
-  const std::string exr = encode_exr({{4, 2}, std::vector<Vec3f>(8, Vec3f(1))}, 0, {});
+  const std::string exr = encode_exr({{4, 2}, std::vector<Vec3f>(8, Vec3f(1))}, {}, {});
   for (const std::string& whole : {hdr, exr}) {
     for (size_t i = 0; i < whole.size(); ++i) {
       std::string damaged = whole;

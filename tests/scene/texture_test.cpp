@@ -187,7 +187,7 @@ TEST(Texture, exr_files_keep_their_radiance) {
   const Image image{
       .size_px = {3, 2},
       .pixels = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {0.5f, 0, 70000}, {0, 0, 0}, {1e-3f, 1, 1}}};
-  const Texture texture = load("t.exr", encode_exr(image, 0, {}));
+  const Texture texture = load("t.exr", encode_exr(image, {}, {}));
   ASSERT_EQ(texture.width, 3);
   ASSERT_EQ(texture.height, 2);
   for (int i = 0; i < 6; ++i) {
@@ -197,7 +197,7 @@ TEST(Texture, exr_files_keep_their_radiance) {
 
 TEST(Texture, damaged_exr_files_are_errors_in_words) {
   const Image image{.size_px = {64, 64}, .pixels = std::vector<Vec3f>(64 * 64, Vec3f(0.3f))};
-  const std::string whole = encode_exr(image, 0, {});
+  const std::string whole = encode_exr(image, {}, {});
   for (const size_t size : {size_t{4}, size_t{20}, whole.size() / 2, whole.size() - 1}) {
     EXPECT_NE(load_error(whole.substr(0, size)).find("no image that can be read"),
               std::string::npos)

@@ -190,7 +190,7 @@ class DiffusePaths {
   }
 
   void scatter(int scatterings) {
-    constexpr int first_roulette = 4;
+    constexpr int first_roulette = 6;
     samplers_.next_2d(samples_.data(), count_, &u_[0], &v_[0]);
     for (size_t i = 0; i < count_; i += step()) {
       const Vector3<Lanes> normal = normal_.at(i);

@@ -221,7 +221,7 @@ class PathWavefront {
   }
 
   bool scatter(Path& path, const Surface& surface, int scatterings, Ray& ray) {
-    constexpr int first_roulette = 4;
+    constexpr int first_roulette = 6;
     Sampler& sampler = block_.samplers[path.sample];
     const Scattering found = SurfaceScattering<features>(surface, path.viewer).sample(sampler);
     ray = {.origin = found.is_transmitted ? offset_origin_behind(surface) : offset_origin(surface),

@@ -13,11 +13,23 @@
 namespace tracer {
 namespace {
 
+/// All that a picture's file may be told.
+struct Content {
+  const Image& image;
+  double exposure;
+  const Metadata& metadata;
+  std::span<const ImageLayer> layers;
+};
+
 struct Format {
   std::string_view extension;
-  std::string (*encode)(const Image& image, double exposure, const Metadata& metadata);
+  std::string (*encode)(const Content& content);
+  bool holds_layers = false;
 };
-constexpr Format formats[] = {{".png", encode_png}, {".exr", encode_exr}, {".pfm", encode_pfm}};
+constexpr Format formats[] = {
+    {".png", [](const Content& c) { return encode_png(c.image, c.exposure, c.metadata); }},
+    {".exr", [](const Content& c) { return encode_exr(c.image, c.metadata, c.layers); }, true},
+    {".pfm", [](const Content& c) { return encode_pfm(c.image, c.exposure, c.metadata); }}};
 
 const Format* find_format(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -53,15 +65,24 @@ bool is_writable_image(const std::filesystem::path& path) {
   return find_format(path) != nullptr;
 }
 
+bool can_hold_layers(const std::filesystem::path& path) {
+  const Format* format = find_format(path);
+  return format != nullptr && format->holds_layers;
+}
+
 void write_image(const std::filesystem::path& path, const Image& image, double exposure,
-                 const std::map<std::string, std::string>& metadata) {
+                 const std::map<std::string, std::string>& metadata,
+                 std::span<const ImageLayer> layers) {
   const Format* format = find_format(path);
   if (format == nullptr) {
     throw LoadError({.path = path.string(), .what = "pictures are written as .png, .exr or .pfm"});
   }
+  if (!layers.empty() && !format->holds_layers) {
+    throw LoadError({.path = path.string(), .what = "layers are written as .exr alone"});
+  }
   std::string bytes;
   try {
-    bytes = format->encode(image, exposure, metadata);
+    bytes = format->encode({image, exposure, metadata, layers});
   } catch (const std::exception& error) {
     throw LoadError({.path = path.string(), .what = error.what()});
   }
