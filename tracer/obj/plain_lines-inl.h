@@ -53,8 +53,7 @@ class PlainLines {
     if (line_end == nullptr) return scan_texcoord(at, scan_.content);
     const __m128d values = decimal_values(at, places[0], places[1]);
     if (between_floats(values) != 0) return scan_texcoord(at, scan_.content);
-    _mm_store_sd(reinterpret_cast<double*>(scan_.content.texcoords.free_room()),
-                 _mm_castps_pd(_mm_cvtpd_ps(values)));
+    store_floats(&scan_.content.texcoords.free_room()->x, values);
     scan_.content.texcoords.keep(1);
     return next_line(line_end);
   }
@@ -67,7 +66,7 @@ class PlainLines {
     const __m128d zz = decimal_values(at, places[2], places[2]);
     if ((between_floats(xy) | between_floats(zz)) != 0) return scan_normal(at, scan_.content);
     float* const to = &scan_.content.normals.free_room()->x;
-    _mm_store_sd(reinterpret_cast<double*>(to), _mm_castps_pd(_mm_cvtpd_ps(xy)));
+    store_floats(to, xy);
     _mm_store_ss(to + 2, _mm_cvtpd_ps(zz));
     scan_.content.normals.keep(1);
     return next_line(line_end);
@@ -190,6 +189,10 @@ class PlainLines {
     if (form == CornerForm::texcoord) return _mm_move_epi64(values);
     if (form == CornerForm::normal) return _mm_blend_epi16(values, _mm_setzero_si128(), 0b1100);
     return values;
+  }
+
+  static HWY_INLINE void store_floats(float* to, __m128d values) {
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(to), _mm_castps_si128(_mm_cvtpd_ps(values)));
   }
 
   static HWY_INLINE void store(int32_t* to, __m128i values) {

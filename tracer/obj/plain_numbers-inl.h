@@ -202,8 +202,8 @@ alignas(16) inline constexpr std::array<int8_t, 16> last_of_8{0,  0,  0,  0,  0,
 
 HWY_INLINE __m128i groups_of_indices(const char* at, const IndexPlace& a, const IndexPlace& b) {
   const auto load = [](const void* low, const void* high) {
-    const __m128d half = _mm_load_sd(static_cast<const double*>(low));
-    return _mm_castpd_si128(_mm_loadh_pd(half, static_cast<const double*>(high)));
+    return _mm_unpacklo_epi64(_mm_loadl_epi64(static_cast<const __m128i*>(low)),
+                              _mm_loadl_epi64(static_cast<const __m128i*>(high)));
   };
   const __m128i digits = load(at + a.end - 8, at + b.end - 8);
   return groups_of_four(_mm_and_si128(
