@@ -6,6 +6,7 @@
 namespace tracer {
 namespace {
 
+constexpr size_t room_to_scan = 4;  // indices are stored four at a time
 constexpr float no_color = std::numeric_limits<float>::quiet_NaN();
 
 WorldBounds bounds_of_usable(std::span<const Vec3d> positions) {
@@ -26,7 +27,7 @@ void ChunkContent::reset(size_t text_bytes) {
   colors_.reset(most / 2);
   texcoords.reset(most / 3);
   normals.reset(most / 3);
-  indices.reset(most / 2 * 3);
+  indices.reset(most / 2 * 3 + room_to_scan);
   runs_.reset(most / 8);
 }
 
@@ -35,8 +36,8 @@ void ChunkContent::push_color(const Vec3f& color) {
   colors_.push(color);
 }
 
-void ChunkContent::push_no_color() {
-  if (!colors_.empty()) colors_.push(Vec3f(no_color));
+void ChunkContent::push_nan_color() {
+  colors_.push(Vec3f(no_color));
 }
 
 void ChunkContent::add_run(uint32_t corner_count, CornerForm form, uint32_t material,

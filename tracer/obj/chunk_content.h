@@ -53,7 +53,9 @@ class ChunkContent {
   void push_position(const Vec3d& position) { positions.push(position); }
   void push_color(const Vec3f& color);
   /// NaN for the last position, if any has a colour.
-  void push_no_color();
+  void push_no_color() {
+    if (!colors_.empty()) push_nan_color();
+  }
 
   /// Adds the face whose indices are the last of `indices`.
   void add_face(uint32_t corner_count, CornerForm form, uint32_t material, uint32_t line);
@@ -67,6 +69,7 @@ class ChunkContent {
   Filled<int32_t> indices;
 
  private:
+  void push_nan_color();
   void add_run(uint32_t corner_count, CornerForm form, uint32_t material, uint32_t line);
 
   Filled<Vec3f> colors_;

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "tracer/obj/scan_rows.h"
+#include "tracer/obj/scan_lines.h"
 #include "tracer/obj/text_cursor.h"
 
 namespace tracer {
@@ -68,36 +68,18 @@ class ChunkParser {
   }
 
  private:
-  /// Passes lines as long as they are of the usual forms.
+  /// Passes lines as long as they are of the usual forms, or comments.
   void scan_lines() {
-    const char* at = cursor_.position();
-    uint32_t line = cursor_.line();
-    while (at < cursor_.end()) {
-      const char* const next = scan_line(at, line);
+    LineScan scan{content_, chunk_.largest, form_, material_};
+    LinePlace place{cursor_.position(), cursor_.line()};
+    for (;;) {
+      place = tracer::scan_lines(place, cursor_.end(), scan);
+      const bool is_comment = place.at < cursor_.end() && *place.at == '#';
+      const char* const next = is_comment ? scan_comment(place.at) : nullptr;
       if (next == nullptr) break;
-      at = std::min(next, cursor_.end());
-      ++line;
+      place = {std::min(next, cursor_.end()), place.line + 1};
     }
-    cursor_.move_to(at, line);
-  }
-
-  const char* scan_line(const char* at, uint32_t line) {
-    switch (at[0]) {
-      case 'v':
-        if (is_blank(at[1])) return scan_position(at + 2, content_);
-        if (at[1] == 'n' && is_blank(at[2])) return scan_normal(at + 3, content_);
-        if (at[1] == 't' && is_blank(at[2])) return scan_texcoord(at + 3, content_);
-        return nullptr;
-      case 'f':
-        if (!is_blank(at[1])) return nullptr;
-        return scan_face(at + 2, {material_, line}, form_, chunk_.largest, content_);
-      case '#':
-        return scan_comment(at);
-      case '\n':
-        return at + 1;
-      default:
-        return nullptr;
-    }
+    cursor_.move_to(place.at, place.line);
   }
 
   bool parse_next_statement() {

@@ -12,11 +12,6 @@ inline const char* skip_blanks(const char* at) {
   return at;
 }
 
-/// Past a line's end; `at` stands on it.
-inline const char* next_line(const char* at) {
-  return at + (at[0] == '\r' && at[1] == '\n' ? 2 : 1);
-}
-
 /// How many numbers the line has, at most `count` of which are read; 0 where it has more, or what
 /// is no number. `at` is left on the line's end.
 inline int scan_numbers(const char*& at, int count, double* numbers) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "tracer/obj/used_bounds.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <optional>
 
 #include "tracer/base/large_vector.h"
 #include "tracer/base/parallel.h"
@@ -97,9 +99,69 @@ class UseFinder {
   std::atomic<bool> has_unusable_{false};
 };
 
+bool names_position(const FaceRun& run, const int32_t* indices, int32_t position) {
+  const uint32_t stride = indices_a_corner(run.form);
+  const uint64_t face_size = run.indices_a_face();
+  const uint64_t size = run.face_count * face_size;
+  for (uint64_t i = 0; i < size; i += stride) {
+    if (indices[i] != position) continue;
+    const bool is_dropped = indices[i / face_size * face_size] == 0;
+    if (!is_dropped) return true;
+  }
+  return false;
+}
+
+/// Whether a face names the position, which counts from 1. Most models name theirs about in order:
+/// the first chunk that may name it does.
+bool is_used(const ObjFile& file, uint64_t position) {
+  return std::any_of(file.chunks.begin(), file.chunks.end(), [&](const PlacedChunk& placed) {
+    const ObjChunk& chunk = placed.chunk;
+    if (chunk.largest.position < position) return false;
+    return std::any_of(chunk.runs.begin(), chunk.runs.end(), [&](const FaceRun& run) {
+      return names_position(run, chunk.indices.data() + run.first_index,
+                            static_cast<int32_t>(position));
+    });
+  });
+}
+
+/// The first position, from 1, that has the coordinate.
+template <Vec3d WorldBounds::*corner>
+uint64_t find_on_side(const ObjFile& file, int axis, double coordinate) {
+  for (const PlacedChunk& placed : file.chunks) {
+    if ((placed.chunk.bounds.*corner)[axis] != coordinate) continue;
+    const PageArray<Vec3d>& positions = placed.chunk.positions;
+    const auto found = std::find_if(positions.begin(), positions.end(), [&](const Vec3d& position) {
+      return position[axis] == coordinate;
+    });
+    return placed.before.positions + static_cast<uint64_t>(found - positions.begin()) + 1;
+  }
+  return 0;
+}
+
+/// The bounds of all positions, where faces use one on each side of them: then it does not matter
+/// which others they use.
+std::optional<WorldBounds> bounds_if_reached(const ObjFile& file) {
+  WorldBounds bounds;
+  for (const PlacedChunk& placed : file.chunks) {
+    if (placed.chunk.has_unusable_position) return std::nullopt;
+    bounds.extend(placed.chunk.bounds);
+  }
+  if (file.counts.positions == 0) return std::nullopt;
+  std::atomic<bool> is_reached{true};
+  parallel_for_each_index(0, 6, [&](size_t side) {
+    const auto axis = static_cast<int>(side / 2);
+    const uint64_t position = side % 2 == 0
+                                  ? find_on_side<&WorldBounds::min>(file, axis, bounds.min[axis])
+                                  : find_on_side<&WorldBounds::max>(file, axis, bounds.max[axis]);
+    if (is_reached && !is_used(file, position)) is_reached = false;
+  });
+  return is_reached ? std::optional(bounds) : std::nullopt;
+}
+
 }  // namespace
 
 WorldBounds find_used_bounds(ObjFile& file, std::vector<Warnings>& faults) {
+  if (const auto bounds = bounds_if_reached(file)) return *bounds;
   UseFinder finder(file);
   finder.mark_used(faults);
   return finder.bounds();

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "tracer/base/directions.h"
 #include "tracer/scene/scene.h"
 
@@ -20,19 +22,23 @@ LightTree make_light_tree(const Mesh& mesh, const EmissiveTriangles& lights) {
   return LightTree(bounds);
 }
 
+bool emits(const Material& material) {
+  // What a texture or chance decides is found by scattered rays alone.
+  return material.map(MapSlot::emission).empty() && is_opaque(material) &&
+         luminance(Vec3d(material.emission)) > 0;
+}
+
 }  // namespace
 
 EmissiveTriangles make_emissive_triangles(const Mesh& mesh,
                                           const std::vector<Material>& materials) {
   EmissiveTriangles lights;
+  if (std::none_of(materials.begin(), materials.end(), emits)) return lights;
   double total = 0;
   for (uint32_t i = 0; i < mesh.triangle_count(); ++i) {
     const Material& material = materials[mesh.material_of(i)];
-    const double radiance = luminance(Vec3d(material.emission));
-    // What a texture or chance decides is found by scattered rays alone.
-    if (!material.map(MapSlot::emission).empty() || !is_opaque(material)) continue;
-    if (!(radiance > 0)) continue;
-    const double power = triangle_at(mesh, i).area() * radiance;
+    if (!emits(material)) continue;
+    const double power = triangle_at(mesh, i).area() * luminance(Vec3d(material.emission));
     if (!(power > 0) || !std::isfinite(power)) continue;
     total += power;
     lights.triangles.push_back(i);
