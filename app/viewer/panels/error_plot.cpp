@@ -12,7 +12,7 @@ namespace app {
 namespace {
 
 // Unscaled.
-constexpr float height = 56;
+constexpr float height = 34;
 constexpr float label_width = 30;
 
 /// A range of powers of ten, whole ones at its ends, over pixels.
@@ -92,7 +92,9 @@ void error_plot(const Ui& ui, const std::string& name, std::span<const ErrorPoin
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(min, max, ImGui::GetColorU32(ImGuiCol_FrameBg, 0.5f),
                      ImGui::GetStyle().FrameRounding);
-  const std::string help = "The picture's error against the time spent on it.";
+  const std::string help =
+      "The picture's error against the time spent on it, estimated from its own samples: relMSE, "
+      "the mean of (x - r)^2 / (r^2 + 0.01), r what the picture converges to.";
   const std::vector<ErrorPoint> drawn = drawable(points);
   if (drawn.empty()) return tooltip(ui, help);
 
@@ -115,6 +117,11 @@ void error_plot(const Ui& ui, const std::string& name, std::span<const ErrorPoin
   const ImU32 color = ImGui::GetColorU32(palette::accent);
   list.AddPolyline(line.data(), static_cast<int>(line.size()), color, 0, 1.5f * ui.scale);
   list.AddCircleFilled(line.back(), 2.5f * ui.scale, color);
+  // Errors fall: the upper right corner is free.
+  const std::string now = fmt::format("error {:.2g}", drawn.back().error.relmse);
+  const ImVec2 size = ImGui::CalcTextSize(now.c_str());
+  list.AddText(ImVec2(max.x - size.x - 4 * ui.scale, min.y), ImGui::GetColorU32(palette::text),
+               now.c_str());
   const float mouse = ImGui::GetMousePos().x;
   const auto nearest = std::ranges::min_element(
       line, {}, [mouse](const ImVec2& place) { return std::abs(place.x - mouse); });

@@ -108,7 +108,7 @@ bool is_main_tree_setting(std::string_view name) {
 }
 
 bool is_main_picture_setting(std::string_view name) {
-  return name == "bounces" || name == "sampler" || name == "allocation" || name == "exposure";
+  return name == "exposure";
 }
 
 /// The chosen builder, unless a quicker one stands in for it.
@@ -216,11 +216,11 @@ void draw_picture_settings(const Ui& ui, ViewerSettings& settings) {
   control_label(ui, "Show");
   settings.shown = static_cast<ShownMap>(
       segmented(ui, "show", {"Picture", "Samples", "Error"}, static_cast<int>(settings.shown)));
+  if (!closed_part(ui, "More##picture")) return;
+  draw_fields(ui, settings.render, [](auto name) { return !is_main_picture_setting(name); });
   control_label(ui, "Up");
   settings.up =
       static_cast<UpAxis>(segmented(ui, "up", {"Auto", "Y", "Z"}, static_cast<int>(settings.up)));
-  if (!closed_part(ui, "More##picture")) return;
-  draw_fields(ui, settings.render, [](auto name) { return !is_main_picture_setting(name); });
 }
 
 }  // namespace

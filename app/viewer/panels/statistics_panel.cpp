@@ -116,9 +116,9 @@ void draw_tree(const Ui& ui, const Status& status) {
   const bool has_tree = tree.node_count > 0;
   const uint32_t triangle_count = status.model ? status.model->scene.mesh->triangle_count() : 0;
   number_row(ui, "Triangles", count_or_dash(triangle_count));
-  number_row(ui, "Nodes", count_or_dash(tree.node_count),
-             "Boxes in the tree: inner nodes, which hold two nodes each, and leaves.");
-  number_row(ui, "Leaves", count_or_dash(tree.leaf_count), "Nodes that hold triangles.");
+  cell_row(ui, {{"Nodes", count_or_dash(tree.node_count),
+                 "Boxes in the tree: inner nodes, which hold two nodes each, and leaves."},
+                {"Leaves", count_or_dash(tree.leaf_count), "Nodes that hold triangles."}});
   cell_row(ui, {{"Depth",
                  {has_tree ? std::to_string(tree.depth) : "–", ""},
                  "Steps from the root to the deepest leaf."},
@@ -147,26 +147,16 @@ void draw_samples(const Ui& ui, const Status& status, uint32_t limit) {
   ui.layout.note_last_item("samples");
 }
 
-void draw_error(const Ui& ui, const Status& status, double error_limit) {
-  const bool is_known = !status.errors.empty();
-  number_row(ui, "Error",
-             {is_known ? fmt::format("{:.2g}", status.errors.back().error.relmse) : "–", "relMSE"},
-             "Estimated from the picture's own samples: the mean of (x - r)^2 / (r^2 + 0.01), r "
-             "what the picture converges to.");
-  ui.layout.note_last_item("picture-error");
-  error_plot(ui, "error-plot", status.errors, error_limit);
-}
-
 void draw_tracing(const Ui& ui, const Status& status, int sample_limit, double error_limit) {
   number_row(ui, "Rate", rate(status.mrays_per_second));
   ui.layout.note_last_item("rate");
   const Quantity rays = format_large(static_cast<double>(status.rays));
-  number_row(ui, "Rays", {rays.value, rays.unit});
   // What is traced stays when the limit is lowered below it.
   const uint32_t limit = std::max(static_cast<uint32_t>(sample_limit), status.samples);
   draw_samples(ui, status, limit);
-  number_row(ui, "Time", format_seconds(status.seconds));
-  draw_error(ui, status, error_limit);
+  cell_row(ui, {{"Rays", {rays.value, rays.unit}, "Traced for this picture."},
+                {"Time", format_seconds(status.seconds), "Spent tracing this picture."}});
+  error_plot(ui, "error-plot", status.errors, error_limit);
   if (status.dropped_samples > 0) {
     number_row(ui, "Dropped", {format_count(status.dropped_samples), ""},
                count_of_dropped(status.dropped_samples) + ". For the first: " + status.replay);
