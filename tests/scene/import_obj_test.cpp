@@ -90,6 +90,12 @@ TEST(ImportObj, texture_coordinates_are_kept_where_a_used_material_has_a_texture
   EXPECT_EQ(plain.dropped_texcoords, 4u);
   EXPECT_TRUE(plain.scene.mesh->texcoords.empty());
   EXPECT_TRUE(plain.scene.mesh->texcoord_indices.empty());
+  // Faulty ones are told even where none is needed.
+  const ImportedScene bare = import(folder.write("bare.obj", square + "f 1/1 2/9 3/3\n" + faces));
+  EXPECT_EQ(bare.dropped_texcoords, 4u);
+  EXPECT_TRUE(bare.scene.mesh->texcoord_indices.empty());
+  EXPECT_EQ(bare.scene.mesh->triangle_count(), 2u);
+  EXPECT_EQ(bare.warnings.count(), 1);
   const ImportedScene mapped =
       import(folder.write("mapped.obj", "mtllib m.mtl\n" + square + "usemtl mapped\n" + faces));
   EXPECT_EQ(mapped.dropped_texcoords, 0u);

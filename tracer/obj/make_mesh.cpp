@@ -82,7 +82,7 @@ std::string why_nothing_to_show(const ObjFile& file) {
 
 }  // namespace
 
-ObjMesh make_mesh(ObjFile& file, const std::string& path, Progress& progress) {
+ObjMesh make_mesh(ObjFile& file, const std::string& path, Progress& progress, Texcoords texcoords) {
   progress.start_stage("making triangles");
   progress.throw_if_stopped();
   ObjMesh made;
@@ -92,7 +92,11 @@ ObjMesh make_mesh(ObjFile& file, const std::string& path, Progress& progress) {
   made.mesh.origin = center_of(made.bounds);
   made.mesh.positions = take_positions(file, made.mesh.origin);
   made.mesh.normals = take_normals(file);
-  made.mesh.texcoords = take_texcoords(file);
+  if (texcoords == Texcoords::kept) {
+    made.mesh.texcoords = take_texcoords(file);
+  } else {
+    drop_texcoords(file);
+  }
   made.mesh.colors = take_colors(file);
   progress.throw_if_stopped();
   make_triangles(file, made.mesh, without_area, progress);

@@ -146,7 +146,7 @@ void make_room(const ObjFile& file, uint64_t triangle_count, Mesh& mesh) {
   const auto form = static_cast<CornerForm>(forms);
   mesh.triangles.resize(triangle_count);
   mesh.normal_indices.resize(has_normal(form) ? triangle_count : 0);
-  mesh.texcoord_indices.resize(has_texcoord(form) ? triangle_count : 0);
+  mesh.texcoord_indices.resize(has_texcoord(form) && !mesh.texcoords.empty() ? triangle_count : 0);
   mesh.materials.resize(file.material_names.size() > 1 ? triangle_count : 0);
 }
 

@@ -65,6 +65,10 @@ LargeVector<Vec2f> take_texcoords(ObjFile& file) {
   return texcoords;
 }
 
+void drop_texcoords(ObjFile& file) {
+  for_each_chunk(file, [](PlacedChunk& placed) { placed.chunk.texcoords = {}; });
+}
+
 LargeVector<Vec3f> take_colors(ObjFile& file) {
   if (!file.has_colors) return {};
   const float unit = largest_color(file) > 1 ? 255.0f : 1.0f;

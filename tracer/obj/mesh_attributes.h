@@ -13,6 +13,7 @@ LargeVector<Vec3f> take_positions(ObjFile& file, const Vec3d& origin);
 /// Unit length, or 0 where one has no direction.
 LargeVector<Vec3f> take_normals(ObjFile& file);
 LargeVector<Vec2f> take_texcoords(ObjFile& file);
+void drop_texcoords(ObjFile& file);
 /// From 0 to 1; a vertex without a colour is white. Empty where no vertex has one.
 LargeVector<Vec3f> take_colors(ObjFile& file);
 

@@ -33,12 +33,9 @@ std::vector<bool> find_textured_materials(const Mesh& mesh, size_t material_coun
   return is_textured;
 }
 
-/// Nobody else asks for coordinates of textures. Returns how many there were.
-size_t drop_texcoords(Mesh& mesh) {
-  const size_t count = mesh.texcoords.size();
-  mesh.texcoords = {};
-  mesh.texcoord_indices = {};
-  return count;
+/// Whether nothing that the file refers to can have a texture.
+Texcoords needed_texcoords(const ObjFile& file) {
+  return file.material_libraries.empty() ? Texcoords::dropped : Texcoords::kept;
 }
 
 }  // namespace
@@ -46,7 +43,7 @@ size_t drop_texcoords(Mesh& mesh) {
 ImportedScene import_obj(const std::filesystem::path& path, Progress& progress) {
   const std::string name = name_of_input(path);
   auto [file, byte_count] = read_obj(path, name, progress);
-  ObjMesh made = make_mesh(file, name, progress);
+  ObjMesh made = make_mesh(file, name, progress, needed_texcoords(file));
 
   ImportedScene result;
   result.has_normals = !made.mesh.normals.empty();
@@ -64,7 +61,11 @@ ImportedScene import_obj(const std::filesystem::path& path, Progress& progress) 
   result.warnings.append(imported.library_warnings);
   result.files = std::move(imported.files);
 
-  if (imported.textures.empty()) result.dropped_texcoords = drop_texcoords(made.mesh);
+  if (imported.textures.empty()) {
+    result.dropped_texcoords = file.counts.texcoords;
+    made.mesh.texcoords = {};
+    made.mesh.texcoord_indices = {};
+  }
   Scene scene;
   scene.lights = std::make_shared<const EmissiveTriangles>(
       make_emissive_triangles(made.mesh, imported.materials));
