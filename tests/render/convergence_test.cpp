@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/log_line.h"
 #include "tests/support/worlds.h"
 #include "tracer/render/integrator.h"
 
@@ -41,13 +42,12 @@ class Convergence : public testing::Test {
 
   /// Of the logarithm of the root mean square error over that of the number of samples.
   double slope(SamplerKind sampler) const {
-    double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+    std::vector<tests::LogPoint> points;
     for (uint32_t samples = 8; samples <= 512; samples *= 2) {
-      const double x = std::log(samples);
-      const double y = std::log(mean_square_error(sampler, samples)) / 2;
-      n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
+      points.push_back(
+          {static_cast<double>(samples), std::sqrt(mean_square_error(sampler, samples))});
     }
-    return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+    return tests::fit_log_line(points).slope;
   }
 
   World world_ = test::make_room({size, size});

@@ -3,37 +3,31 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 
 #include "tracer/render/film_error.h"
+#include "tracer/render/preview.h"
 #include "tracer/render/render.h"
 
 namespace tracer {
 namespace {
 
-/// Calls answer(sample, surface) for each camera ray, nullptr where it meets nothing.
-template <class F>
-void for_each_first_surface(const World& world, const SampleBlock& block, const F& answer) {
-  for (size_t i = 0; i < block.size(); ++i) {
-    const Hit& hit = block.camera_hits[i];
-    std::optional<Surface> surface;
-    if (hit.is_hit()) {
-      surface = surface_at(*world.scene, hit, Vec3d(block.camera_rays[i].direction));
-    }
-    answer(i, surface ? &*surface : nullptr);
-  }
+/// Answers a block by value(ray, surface) where camera rays end, by 0 where they meet nothing.
+template <class Value>
+void find_on_first_surfaces(const World& world, const SampleBlock& block, const Value& value) {
+  NoRecorder recorder;
+  colour_first_surfaces(
+      world, block, [](const Ray&) { return Vec3d(0); }, recorder, value);
 }
 
 void find_albedo(const World& world, RayCaster&, const RenderSettings&, const SampleBlock& block) {
-  for_each_first_surface(world, block, [&](size_t i, const Surface* surface) {
-    block.radiance[i] = surface != nullptr ? Vec3d(surface->scattering.base_color) : Vec3d(0);
+  find_on_first_surfaces(world, block, [](const Ray&, const Surface& surface) {
+    return Vec3d(surface.scattering.base_color);
   });
 }
 
 void find_normal(const World& world, RayCaster&, const RenderSettings&, const SampleBlock& block) {
-  for_each_first_surface(world, block, [&](size_t i, const Surface* surface) {
-    block.radiance[i] = surface != nullptr ? surface->shading_normal : Vec3d(0);
-  });
+  find_on_first_surfaces(world, block,
+                         [](const Ray&, const Surface& surface) { return surface.shading_normal; });
 }
 
 /// Negative for nothing: what is not finite would be dropped.

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "tests/bench/compare/svg.h"
-
 namespace bench {
 namespace {
 
@@ -30,8 +28,8 @@ Colors colors_of(const std::vector<BarSeries>& series) {
   return chosen;
 }
 
-constexpr double width = 1200;
-constexpr double margin = 28;
+constexpr double width = svg::page_width;
+constexpr double margin = svg::page_margin;
 constexpr double axis_width = 52;
 constexpr double header_height = 112;
 constexpr double panel_height = 246;
@@ -138,22 +136,13 @@ std::string to_svg(const BarChart& chart) {
   const Colors colors = colors_of(chart.series);
   const double height =
       header_height + panel_height * static_cast<double>(chart.panels.size()) + footer_height;
-  std::string svg;
-  svg += text(margin, 40, {.size = 24, .weight = "bold"}, chart.title);
-  svg += text(margin, 64, {.size = 14, .color = "#555555"}, chart.subtitle);
-  svg += legend(chart, colors, 94);
+  std::string svg = legend(chart, colors, 94);
   double y = header_height;
   for (const BarPanel& panel : chart.panels) {
     svg += panel_svg(panel, colors, y, chart.reference);
     y += panel_height;
   }
-  svg += text(margin, height - 14, {.size = 12, .color = "#777777"}, chart.footer);
-  return svg::document(width, height, svg);
-}
-
-std::vector<std::filesystem::path> write_chart(const BarChart& chart,
-                                               const std::filesystem::path& path) {
-  return svg::write_files(to_svg(chart), path);
+  return svg::page(height, chart.frame, svg);
 }
 
 }  // namespace bench

@@ -2,9 +2,10 @@
 // Grouped bars as SVG.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
+
+#include "tests/bench/compare/svg.h"
 
 namespace bench {
 
@@ -35,19 +36,12 @@ struct BarPanel {
 
 /// Panels lie one below the other, each with a scale of its own that begins at 0.
 struct BarChart {
-  std::string title;
-  std::string subtitle;
-  std::string footer;
+  svg::Frame frame;
   std::vector<BarSeries> series;  // in the order of the legend
   std::vector<BarPanel> panels;
   double reference = 0;  // a dashed line at this height; 0: none
 };
 
 std::string to_svg(const BarChart& chart);
-
-/// Writes PATH.svg, and PATH.png where rsvg-convert is found; returns the paths of what was
-/// written. Throws std::runtime_error.
-std::vector<std::filesystem::path> write_chart(const BarChart& chart,
-                                               const std::filesystem::path& path);
 
 }  // namespace bench

@@ -78,9 +78,9 @@ BarChart build_chart(std::span<const BuildRecord> records, int threads,
   const bool has_ratios =
       std::ranges::any_of(records, [](const BuildRecord& record) { return record.ratio > 0; });
   BarChart chart;
-  chart.title = fmt::format("Building a tree, {} thread{}", threads, threads == 1 ? "" : "s");
-  chart.subtitle = "From triangles to what rays are traced through. Lower is better.";
-  chart.footer = machine;
+  chart.frame.title = fmt::format("Building a tree, {} thread{}", threads, threads == 1 ? "" : "s");
+  chart.frame.subtitle = "From triangles to what rays are traced through. Lower is better.";
+  chart.frame.footer = machine;
   chart.panels.push_back(make_panel(
       records, threads, chart,
       {[&](const BuildRecord& record) { return has_ratios ? record.ratio : record.ms.median; },

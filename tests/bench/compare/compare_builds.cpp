@@ -9,6 +9,7 @@
 
 #include "app/stopwatch.h"
 #include "tests/bench/compare/build_records.h"
+#include "tests/bench/compare/choose.h"
 #include "tests/bench/compare/commands.h"
 #include "tests/bench/compare/embree_scene.h"
 #include "tests/bench/compare/machine.h"
@@ -132,7 +133,7 @@ int compare_builds(const Options& options) {
   const std::string machine = machine_line();
   const int most_threads = std::min(2, processor_count());
   fmt::print("{}\n", machine);
-  for (const SceneEntry* entry : chosen_scenes(options)) {
+  for (const SceneEntry* entry : chosen_from(scene_entries(), options)) {
     const auto scene = make_scene(*entry, options.effort);
     if (!scene) continue;
     for (int thread_count = 1; thread_count <= most_threads; ++thread_count) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "tests/bench/compare/choose.h"
 #include "tests/bench/compare/commands.h"
 #include "tests/bench/compare/cycles_runs.h"
 #include "tests/bench/compare/error_records.h"
@@ -97,11 +98,6 @@ std::vector<ErrorCurve> measure(const ErrorSceneEntry& entry, const ErrorScene& 
   return curves;
 }
 
-bool is_chosen(const ErrorSceneEntry& entry, const Options& options) {
-  if (options.scenes.empty()) return options.effort == Effort::full || entry.is_in_quick;
-  return std::ranges::find(options.scenes, entry.name) != options.scenes.end();
-}
-
 }  // namespace
 
 int compare_errors(const Options& options) {
@@ -111,14 +107,13 @@ int compare_errors(const Options& options) {
   fmt::print("{}\n", machine);
   const int size_divisor = options.effort == Effort::quick ? 8 : 1;
   std::vector<ErrorCurve> curves;
-  for (const ErrorSceneEntry& entry : error_scene_entries()) {
-    if (!is_chosen(entry, options)) continue;
-    const std::optional<ErrorScene> scene = load_error_scene(entry, size_divisor);
+  for (const ErrorSceneEntry* entry : chosen_from(error_scene_entries(), options)) {
+    const std::optional<ErrorScene> scene = load_error_scene(*entry, size_divisor);
     if (!scene) {
-      fmt::print("{}: SKIPPED, its model is missing\n", entry.name);
+      fmt::print("{}: SKIPPED, its model is missing\n", entry->name);
       continue;
     }
-    for (ErrorCurve& curve : measure(entry, *scene, options, blender)) {
+    for (ErrorCurve& curve : measure(*entry, *scene, options, blender)) {
       curves.push_back(std::move(curve));
     }
   }

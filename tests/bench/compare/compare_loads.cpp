@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/stopwatch.h"
+#include "tests/bench/compare/choose.h"
 #include "tests/bench/compare/commands.h"
 #include "tests/bench/compare/load_files.h"
 #include "tests/bench/compare/load_memory.h"
@@ -119,25 +120,6 @@ std::vector<LoadRecord> compare_file(const LoadFile& file, const Path& path, int
   return records;
 }
 
-std::vector<const LoadFile*> chosen_files(const Options& options) {
-  for (const std::string& name : options.scenes) {
-    if (std::ranges::find(load_files(), name, &LoadFile::name) != load_files().end()) continue;
-    std::string known;
-    for (const LoadFile& file : load_files())
-      known += fmt::format("\n  {:<6} {}", file.name, file.what);
-    throw std::invalid_argument("there is no file '" + name + "'; there are:" + known);
-  }
-  std::vector<const LoadFile*> chosen;
-  for (const LoadFile& file : load_files()) {
-    const bool is_chosen =
-        options.scenes.empty()
-            ? file.is_in_quick || options.effort == Effort::full
-            : std::ranges::find(options.scenes, file.name) != options.scenes.end();
-    if (is_chosen) chosen.push_back(&file);
-  }
-  return chosen;
-}
-
 }  // namespace
 
 int compare_loads(const Options& options) {
@@ -145,7 +127,7 @@ int compare_loads(const Options& options) {
   fmt::print("{}\n", machine);
   for (const std::string& name : missing_obj_loaders()) fmt::print("{}: not found\n", name);
   std::vector<LoadRecord> records;
-  for (const LoadFile* file : chosen_files(options)) {
+  for (const LoadFile* file : chosen_from(load_files(), options)) {
     const tracer::TemporaryFolder folder;  // the file goes with it before the next is written
     const auto path = file->make(folder);
     if (!path) {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "tests/bench/compare/choose.h"
 #include "tests/bench/compare/commands.h"
 #include "tests/bench/compare/embree_scene.h"
 #include "tests/bench/compare/machine.h"
@@ -109,7 +110,7 @@ int compare_rays(const Options& options) {
   std::vector<RayRecord> records;
   const std::string machine = machine_line();
   fmt::print("{}\nmillion rays a second: median (min - max)\n", machine);
-  for (const SceneEntry* entry : chosen_scenes(options)) {
+  for (const SceneEntry* entry : chosen_from(scene_entries(), options)) {
     const auto scene = make_scene(*entry, options.effort);
     if (!scene) continue;
     const Contest contest = make_contest(*scene, options.builders);

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "tests/support/log_line.h"
+
 namespace bench {
 namespace {
 
@@ -21,28 +23,14 @@ double student_quantile(size_t degrees) {
                                      : 1.960 + 2.4 / static_cast<double>(degrees);
 }
 
-struct Line {
-  double offset = 0, slope = 0;  // natural logarithms
-  double x_of(double y) const { return std::exp((std::log(y) - offset) / slope); }
-};
-
-/// Least squares through the logarithms of positive points.
-template <class X, class Y>
-Line fit(std::span<const ErrorRung> rungs, const X& x_of, const Y& y_of) {
-  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-  for (const ErrorRung& rung : rungs) {
-    if (!(x_of(rung) > 0) || !(y_of(rung) > 0)) continue;
-    const double x = std::log(x_of(rung)), y = std::log(y_of(rung));
-    n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
-  }
-  const double spread = n * sxx - sx * sx;
-  const double slope = spread > 0 ? (n * sxy - sx * sy) / spread : 0;
-  return {n > 0 ? (sy - slope * sx) / n : 0, slope};
+/// A line through what is told of each rung at its time.
+template <class Y>
+tests::LogLine fit_over_seconds(std::span<const ErrorRung> rungs, const Y& y_of) {
+  std::vector<tests::LogPoint> points;
+  for (const ErrorRung& rung : rungs) points.push_back({rung.seconds, y_of(rung)});
+  return tests::fit_log_line(points);
 }
 
-double seconds_of(const ErrorRung& rung) {
-  return rung.seconds;
-}
 double relmse_of(const ErrorRung& rung) {
   return rung.relmse.mean;
 }
@@ -138,13 +126,13 @@ std::optional<TimeTo> time_to(std::span<const ErrorRung> rungs, double relmse) {
   for (size_t i = 0; i + 1 < rungs.size(); ++i) {
     const bool is_between = relmse_of(rungs[i]) > relmse && relmse_of(rungs[i + 1]) <= relmse;
     if (!is_between || !(relmse_of(rungs[i + 1]) > 0)) continue;
-    return TimeTo{relmse, fit(rungs.subspan(i, 2), seconds_of, relmse_of).x_of(relmse), false};
+    return TimeTo{relmse, fit_over_seconds(rungs.subspan(i, 2), relmse_of).x_of(relmse), false};
   }
   // The later half: the first samples of a sequence tell little of how it goes on.
   const bool is_before = relmse_of(rungs.front()) <= relmse;
   const std::span<const ErrorRung> part =
       is_before ? rungs.first(2) : rungs.subspan(std::min(rungs.size() / 2, rungs.size() - 2));
-  const Line line = fit(part, seconds_of, relmse_of);
+  const tests::LogLine line = fit_over_seconds(part, relmse_of);
   if (!(line.slope < 0)) return std::nullopt;
   return TimeTo{relmse, line.x_of(relmse), true};
 }
@@ -166,7 +154,7 @@ ErrorCurve make_curve(std::string scene, std::string tracer,
       curve.rungs.push_back(make_rung(snapshots, systematic_relmse));
     }
   }
-  curve.rmse_slope = fit(curve.rungs, seconds_of, rmse_of).slope;
+  curve.rmse_slope = fit_over_seconds(curve.rungs, rmse_of).slope;
   for (const double error : told_errors) {
     if (const auto time = time_to(curve.rungs, error)) curve.times.push_back(*time);
   }
@@ -234,11 +222,11 @@ std::string time_table(std::span<const ErrorCurve> curves) {
 
 LineChart error_chart(std::span<const ErrorCurve> curves, const std::string& machine) {
   LineChart chart;
-  chart.title = "Path tracing: error against time";
-  chart.subtitle =
+  chart.frame.title = "Path tracing: error against time";
+  chart.frame.subtitle =
       "relMSE, the mean of (x - r)² / (r² + 0.01), against a reference that took far longer. "
       "Lower left is better.";
-  chart.footer = machine;
+  chart.frame.footer = machine;
   chart.x_axis = "seconds of rendering";
   for (const std::span<const ErrorCurve>& scene : by_scene(curves)) {
     LinePanel panel{scene.front().scene, note_of(scene), {}};

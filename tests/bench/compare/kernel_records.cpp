@@ -116,12 +116,12 @@ std::vector<KernelRecord> summarised(std::span<const KernelRecord> records) {
 
 ScatterChart kernel_chart(std::span<const KernelRecord> summary, const std::string& machine) {
   ScatterChart chart;
-  chart.title = "Ray-triangle tests: time against error";
-  chart.subtitle =
+  chart.frame.title = "Ray-triangle tests: time against error";
+  chart.frame.subtitle =
       "The same rays for all, aimed at edges and vertices, grazing, far away, far from 0; judged "
       "by "
       "exact arithmetic. Lower left is better.";
-  chart.footer = machine;
+  chart.frame.footer = machine;
   chart.x_axis = "nanoseconds a ray-triangle test, on random rays";
   chart.markers = {{Marker::disc, "SIMD, a block of triangles at a time"},
                    {Marker::ring, "scalar"},

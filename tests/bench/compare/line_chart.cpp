@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "tests/bench/compare/log_axis.h"
-#include "tests/bench/compare/svg.h"
 
 namespace bench {
 namespace {
@@ -18,8 +17,8 @@ using svg::Anchor;
 using svg::line;
 using svg::text;
 
-constexpr double width = 1200;
-constexpr double margin = 28;
+constexpr double width = svg::page_width;
+constexpr double margin = svg::page_margin;
 constexpr double axis_width = 46;
 constexpr double header_height = 112;
 constexpr double panel_height = 380;
@@ -115,9 +114,7 @@ std::string legend(const LineChart& chart) {
 }  // namespace
 
 std::string to_svg(const LineChart& chart) {
-  std::string drawn = text(margin, 40, {.size = 24, .weight = "bold"}, chart.title) +
-                      text(margin, 64, {.size = 14, .color = "#555555"}, chart.subtitle) +
-                      legend(chart);
+  std::string drawn = legend(chart);
   double y = header_height;
   for (size_t i = 0; i < chart.panels.size(); ++i) {
     const bool is_right = i % 2 == 1;
@@ -127,13 +124,7 @@ std::string to_svg(const LineChart& chart) {
   drawn += text(width - margin, y + 8, {.size = 13, .color = quiet, .anchor = Anchor::end},
                 chart.x_axis);
   const double height = y + footer_height;
-  drawn += text(margin, height - 14, {.size = 12, .color = "#777777"}, chart.footer);
-  return svg::document(width, height, drawn);
-}
-
-std::vector<std::filesystem::path> write_chart(const LineChart& chart,
-                                               const std::filesystem::path& path) {
-  return svg::write_files(to_svg(chart), path);
+  return svg::page(height, chart.frame, drawn);
 }
 
 }  // namespace bench

@@ -2,9 +2,10 @@
 // Lines over two logarithmic axes as SVG.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
+
+#include "tests/bench/compare/svg.h"
 
 namespace bench {
 
@@ -29,18 +30,11 @@ struct LinePanel {
 
 /// Panels lie side by side, two a row, each with axes of its own.
 struct LineChart {
-  std::string title;
-  std::string subtitle;
-  std::string footer;
+  svg::Frame frame;
   std::string x_axis;
   std::vector<LinePanel> panels;
 };
 
 std::string to_svg(const LineChart& chart);
-
-/// Writes PATH.svg, and PATH.png where rsvg-convert is found; returns the paths of what was
-/// written. Throws std::runtime_error.
-std::vector<std::filesystem::path> write_chart(const LineChart& chart,
-                                               const std::filesystem::path& path);
 
 }  // namespace bench

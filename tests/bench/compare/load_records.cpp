@@ -78,9 +78,9 @@ BarChart load_chart(std::span<const LoadRecord> records, const std::string& mach
   const bool has_ratios = std::ranges::all_of(
       records, [](const LoadRecord& record) { return record.ratio_to_tinyobjloader > 0; });
   BarChart chart;
-  chart.title = "Loading OBJ files";
-  chart.subtitle = "From a file to triangles, in memory beyond the file's own pages.";
-  chart.footer = machine;
+  chart.frame.title = "Loading OBJ files";
+  chart.frame.subtitle = "From a file to triangles, in memory beyond the file's own pages.";
+  chart.frame.footer = machine;
   chart.panels.push_back(make_panel(
       records, chart,
       {[&](const LoadRecord& record) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "tests/bench/compare/choose.h"
 #include "tests/bench/compare/commands.h"
 #include "tests/bench/compare/exactness_records.h"
 #include "tests/bench/compare/machine.h"
@@ -185,7 +186,7 @@ int measure_exactness(const Options& given) {
   if (options.scenes.empty()) options.scenes = {"cow", "bunny"};
   std::vector<ExactnessRecord> records;
   fmt::print("{}\nmillion rays a second, one thread: medians\n", machine_line());
-  for (const SceneEntry* entry : chosen_scenes(options)) {
+  for (const SceneEntry* entry : chosen_from(scene_entries(), options)) {
     const auto scene = make_scene(*entry, options.effort);
     if (!scene) continue;
     std::ranges::move(measure_scene(*scene, options), std::back_inserter(records));

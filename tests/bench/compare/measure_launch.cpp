@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/stopwatch.h"
+#include "tests/bench/compare/choose.h"
 #include "tests/bench/compare/commands.h"
 #include "tests/bench/compare/load_files.h"
 #include "tests/bench/compare/machine.h"
@@ -32,11 +33,13 @@ constexpr double patience_seconds = 60;
 /// A model, and the seconds within which its picture has to show.
 struct LaunchTarget {
   std::string_view name;
+  std::string_view what;
   double seconds = 0;
   bool is_in_quick = false;
 };
-constexpr LaunchTarget targets[] = {
-    {"cow", 0.25, true}, {"bunny", 0.35, true}, {"sphere", 0.9, false}};
+constexpr LaunchTarget targets[] = {{"cow", "5,804 triangles", 0.25, true},
+                                    {"bunny", "69,451 triangles", 0.35, true},
+                                    {"sphere", "a bumpy one of 1,002,252 triangles", 0.9, false}};
 
 struct LaunchRecord {
   std::string model;
@@ -127,11 +130,6 @@ tests::Rectangle find_picture(const Path& model, const tracer::TemporaryFolder& 
   return *picture;
 }
 
-bool is_chosen(const LaunchTarget& target, const Options& options) {
-  if (options.scenes.empty()) return options.effort == Effort::full || target.is_in_quick;
-  return std::ranges::find(options.scenes, target.name) != options.scenes.end();
-}
-
 }  // namespace
 
 int measure_launch(const Options& options) {
@@ -140,16 +138,15 @@ int measure_launch(const Options& options) {
   const ScreenWatch screen(display);
   std::vector<LaunchRecord> records;
   fmt::print("{}\n", machine_line());
-  for (const LaunchTarget& target : targets) {
-    if (!is_chosen(target, options)) continue;
+  for (const LaunchTarget* target : chosen_from(std::span<const LaunchTarget>(targets), options)) {
     const tracer::TemporaryFolder folder;
-    const auto model = find_model(target.name, folder);
+    const auto model = find_model(target->name, folder);
     if (!model) {
-      fmt::print("{}: SKIPPED, its model is missing\n", target.name);
+      fmt::print("{}: SKIPPED, its model is missing\n", target->name);
       continue;
     }
     const tests::Rectangle middle = middle_of(find_picture(*model, folder), 120);
-    LaunchRecord record{std::string(target.name), target.seconds};
+    LaunchRecord record{std::string(target->name), target->seconds};
     for (int i = 0; i < options.repeat_count; ++i) launch(*model, screen, middle, record);
     fmt::print("{}\n", table_line(record));
     std::fflush(stdout);

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/stopwatch.h"
+#include "tests/bench/compare/choose.h"
 #include "tests/bench/compare/commands.h"
 #include "tests/bench/compare/load_files.h"
 #include "tests/bench/compare/mouse.h"
@@ -232,7 +233,7 @@ int measure_orbit(const Options& options) {
   const tests::VirtualDisplay display;
   if (!display.is_running()) throw std::runtime_error("Xvfb does not start; is it installed?");
   Report report;
-  for (const SceneEntry* entry : chosen_scenes(with_orbit_scenes(options))) {
+  for (const SceneEntry* entry : chosen_from(scene_entries(), with_orbit_scenes(options))) {
     const auto scene = make_scene(*entry, options.effort);
     if (!scene) continue;
     measure_scene(*scene, display, options.effort, report);

@@ -2,24 +2,17 @@
 #include "tests/bench/compare/options.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "tests/bench/compare/choose.h"
 #include "tests/bench/compare/commands.h"
 #include "tests/bench/compare/error_scenes.h"
+#include "tests/bench/compare/load_files.h"
 
 namespace bench {
 namespace {
-
-std::string list_of_scenes() {
-  std::string list;
-  for (const SceneEntry& entry : scene_entries()) {
-    list += fmt::format("  {:<8} {}\n", entry.name, entry.what);
-  }
-  return list;
-}
 
 std::string list_of_commands() {
   std::string list;
@@ -43,23 +36,6 @@ void add_hidden_options(CLI::App& app, Options& options) {
   app.add_option("--threads", options.thread_count)->group("");
 }
 
-std::string list_of_error_scenes() {
-  std::string list;
-  for (const ErrorSceneEntry& entry : error_scene_entries()) {
-    list += fmt::format("  {:<12} {}\n", entry.name, entry.what);
-  }
-  return list;
-}
-
-void check_error_scenes(const Options& options) {
-  for (const std::string& name : options.scenes) {
-    const auto entries = error_scene_entries();
-    if (std::ranges::find(entries, name, &ErrorSceneEntry::name) != entries.end()) continue;
-    throw std::invalid_argument("there is no scene '" + name + "'; there are:\n" +
-                                list_of_error_scenes());
-  }
-}
-
 /// The options of `error`; what a quick run takes unless it is told.
 void add_error_options(CLI::App& app, Options& options) {
   app.add_flag_callback(
@@ -80,16 +56,6 @@ void shorten_errors(const CLI::App& app, Options& options) {
   if (app.count("--reference") == 0) options.reference_seconds = 4;
 }
 
-void check_scenes(const Options& options) {
-  if (options.command == "load") return;  // it has files instead
-  if (options.command == "error") return check_error_scenes(options);
-  for (const std::string& name : options.scenes) {
-    if (find_scene_entry(name) != nullptr) continue;
-    throw std::invalid_argument("there is no scene '" + name + "'; there are:\n" +
-                                list_of_scenes());
-  }
-}
-
 }  // namespace
 
 std::optional<Options> parse_options(int argument_count, char** arguments) {
@@ -97,14 +63,13 @@ std::optional<Options> parse_options(int argument_count, char** arguments) {
   bool is_quick = false;
   bool has_all_builders = false;
   CLI::App app("Compares Boxwood with others, and measures what a user waits for");
-  app.footer("Commands:\n" + list_of_commands() + "\nScenes:\n" + list_of_scenes() +
-             "\nScenes of error:\n" + list_of_error_scenes());
+  app.footer("Commands:\n" + list_of_commands() + "\nScenes:\n" + list_of(scene_entries()) +
+             "\nScenes of error:\n" + list_of(error_scene_entries()) + "\nFiles of load:\n" +
+             list_of(load_files()));
   app.add_option("command", options.command, "what to measure")
       ->required()
       ->check(CLI::IsMember(command_names()));
-  app.add_option("scenes,--scenes", options.scenes,
-                 "names, separated by commas; of load: bunny, 12MB, 100MB, 400MB")
-      ->delimiter(',');
+  app.add_option("scenes,--scenes", options.scenes, "names, separated by commas")->delimiter(',');
   app.add_flag("--quick", is_quick, "few small scenes, 3 repeats: done in a minute");
   app.add_flag("--builders", has_all_builders, "rays: trace the trees of every builder");
   CLI::Option* repeats =
@@ -124,20 +89,7 @@ std::optional<Options> parse_options(int argument_count, char** arguments) {
   if (is_quick) shorten_errors(app, options);
   if (is_quick && repeats->count() == 0) options.repeat_count = 3;
   if (has_all_builders) options.builders = BuilderChoice::all;
-  check_scenes(options);
   return options;
-}
-
-std::vector<const SceneEntry*> chosen_scenes(const Options& options) {
-  std::vector<const SceneEntry*> chosen;
-  for (const SceneEntry& entry : scene_entries()) {
-    const bool is_default = options.effort == Effort::full || entry.is_in_quick;
-    const bool is_chosen = options.scenes.empty() ? is_default
-                                                  : std::ranges::find(options.scenes, entry.name) !=
-                                                        options.scenes.end();
-    if (is_chosen) chosen.push_back(&entry);
-  }
-  return chosen;
 }
 
 std::optional<Scene> make_scene(const SceneEntry& entry, Effort effort) {

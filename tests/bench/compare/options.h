@@ -15,7 +15,7 @@ enum class VariantChoice { standard, all };
 
 struct Options {
   std::string command;              // a name of commands()
-  std::vector<std::string> scenes;  // empty: all, or those of a quick run
+  std::vector<std::string> scenes;  // or files; empty: all, or those of a quick run
   Effort effort = Effort::full;
   int repeat_count = 5;
   BuilderChoice builders = BuilderChoice::standard;
@@ -34,9 +34,6 @@ struct Options {
 
 /// Nothing where only help was asked for. Throws CLI::Error, std::invalid_argument.
 std::optional<Options> parse_options(int argument_count, char** arguments);
-
-/// The scenes that were chosen, in the table's order.
-std::vector<const SceneEntry*> chosen_scenes(const Options& options);
 
 /// Makes it, and says where it is missing.
 std::optional<Scene> make_scene(const SceneEntry& entry, Effort effort);

@@ -111,12 +111,12 @@ BarChart ray_chart(std::span<const RayRecord> records, const std::string& machin
   const bool has_ratios =
       std::ranges::any_of(records, [](const RayRecord& record) { return !record.ratios.empty(); });
   BarChart chart;
-  chart.title = "Rays traced a second, one thread";
-  chart.subtitle = has_ratios
-                       ? "Over each bar: million rays a second. Higher is better; below each "
-                         "scene, Boxwood's single rays against Embree's."
-                       : "Million rays a second; higher is better.";
-  chart.footer = machine;
+  chart.frame.title = "Rays traced a second, one thread";
+  chart.frame.subtitle = has_ratios
+                             ? "Over each bar: million rays a second. Higher is better; below each "
+                               "scene, Boxwood's single rays against Embree's."
+                             : "Million rays a second; higher is better.";
+  chart.frame.footer = machine;
   chart.series = series_of(records);
   chart.reference = has_ratios ? 1 : 0;
   std::vector<std::string> scenes;

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/bench/compare/svg.h"
+
 namespace bench {
 
 /// Writes PATH.json, an array of the records, with its folder. Throws std::runtime_error.
@@ -25,7 +27,9 @@ void write_json(const std::filesystem::path& path, const Records& records) {
 template <class Records, class Chart>
 void write_report(const std::filesystem::path& path, const Records& records, const Chart& chart) {
   write_json(path, records);
-  for (const auto& written : write_chart(chart, path)) fmt::print("{}\n", written.string());
+  for (const auto& written : svg::write_files(to_svg(chart), path)) {
+    fmt::print("{}\n", written.string());
+  }
 }
 
 }  // namespace bench

@@ -9,7 +9,6 @@
 
 #include "tests/bench/compare/log_axis.h"
 #include "tests/bench/compare/place_labels.h"
-#include "tests/bench/compare/svg.h"
 
 namespace bench {
 namespace {
@@ -19,8 +18,8 @@ using svg::line;
 using svg::rectangle;
 using svg::text;
 
-constexpr double width = 1200;
-constexpr double margin = 28;
+constexpr double width = svg::page_width;
+constexpr double margin = svg::page_margin;
 constexpr double axis_width = 62;
 constexpr double header_height = 116;
 constexpr double panel_height = 330;
@@ -183,9 +182,7 @@ std::vector<ScatterPoint> front_of(std::vector<ScatterPoint> points) {
 
 std::string to_svg(const ScatterChart& chart) {
   const std::pair<double, double> x_range = x_range_of(chart);
-  std::string drawn = text(margin, 40, {.size = 24, .weight = "bold"}, chart.title) +
-                      text(margin, 64, {.size = 14, .color = "#555555"}, chart.subtitle) +
-                      legend(chart);
+  std::string drawn = legend(chart);
   double y = header_height;
   for (const ScatterPanel& panel : chart.panels) {
     drawn += panel_svg(panel, x_range, y);
@@ -194,13 +191,7 @@ std::string to_svg(const ScatterChart& chart) {
   drawn += text(width - margin, y + 16, {.size = 13, .color = quiet, .anchor = Anchor::end},
                 chart.x_axis);
   const double height = y + footer_height;
-  drawn += text(margin, height - 14, {.size = 12, .color = "#777777"}, chart.footer);
-  return svg::document(width, height, drawn);
-}
-
-std::vector<std::filesystem::path> write_chart(const ScatterChart& chart,
-                                               const std::filesystem::path& path) {
-  return svg::write_files(to_svg(chart), path);
+  return svg::page(height, chart.frame, drawn);
 }
 
 }  // namespace bench

@@ -2,9 +2,10 @@
 // Points on two logarithmic axes as SVG, with a band of its own for zero.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
+
+#include "tests/bench/compare/svg.h"
 
 namespace bench {
 
@@ -32,9 +33,7 @@ struct MarkerMeaning {
 /// Panels lie one below the other over the same x axis. Lower left is better: what another point of
 /// the panel beats on both axes lies in the shade behind the front.
 struct ScatterChart {
-  std::string title;
-  std::string subtitle;
-  std::string footer;
+  svg::Frame frame;
   std::string x_axis;
   std::vector<MarkerMeaning> markers;
   std::vector<ScatterPanel> panels;
@@ -44,10 +43,5 @@ struct ScatterChart {
 std::vector<ScatterPoint> front_of(std::vector<ScatterPoint> points);
 
 std::string to_svg(const ScatterChart& chart);
-
-/// Writes PATH.svg, and PATH.png where rsvg-convert is found; returns the paths of what was
-/// written. Throws std::runtime_error.
-std::vector<std::filesystem::path> write_chart(const ScatterChart& chart,
-                                               const std::filesystem::path& path);
 
 }  // namespace bench

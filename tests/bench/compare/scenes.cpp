@@ -77,9 +77,4 @@ std::span<const SceneEntry> scene_entries() {
   return table;
 }
 
-const SceneEntry* find_scene_entry(std::string_view name) {
-  const auto found = std::ranges::find(table, name, &SceneEntry::name);
-  return found == std::end(table) ? nullptr : found;
-}
-
 }  // namespace bench

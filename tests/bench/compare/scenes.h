@@ -32,7 +32,5 @@ struct SceneEntry {
 };
 
 std::span<const SceneEntry> scene_entries();
-/// nullptr where there is none of that name.
-const SceneEntry* find_scene_entry(std::string_view name);
 
 }  // namespace bench

@@ -48,12 +48,16 @@ std::string line(double x1, double y1, double x2, double y2, const std::string& 
                      y1, y2, attributes);
 }
 
-std::string document(double width, double height, const std::string& content) {
+std::string page(double height, const Frame& frame, const std::string& content) {
   return fmt::format(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 "
              "{0} {1}\" font-family=\"DejaVu Sans, Verdana, sans-serif\">\n",
-             width, height) +
-         rectangle(0, 0, width, height, "#FFFFFF") + content + "</svg>\n";
+             page_width, height) +
+         rectangle(0, 0, page_width, height, "#FFFFFF") +
+         text(page_margin, 40, {.size = 24, .weight = "bold"}, frame.title) +
+         text(page_margin, 64, {.size = 14, .color = "#555555"}, frame.subtitle) + content +
+         text(page_margin, height - 14, {.size = 12, .color = "#777777"}, frame.footer) +
+         "</svg>\n";
 }
 
 std::vector<std::filesystem::path> write_files(const std::string& svg,

@@ -23,8 +23,18 @@ std::string rectangle(double x, double y, double width, double height, const std
 /// `attributes` tell of its stroke.
 std::string line(double x1, double y1, double x2, double y2, const std::string& attributes);
 
-/// The whole on white.
-std::string document(double width, double height, const std::string& content);
+constexpr double page_width = 1200;
+constexpr double page_margin = 28;
+
+/// What is said around a chart.
+struct Frame {
+  std::string title;
+  std::string subtitle;
+  std::string footer;
+};
+
+/// A chart on white: its title, a subtitle that ends at y = 70, the content, a footer at the end.
+std::string page(double height, const Frame& frame, const std::string& content);
 
 /// Writes PATH.svg, and PATH.png where rsvg-convert is found; returns the paths of what was
 /// written. Throws std::runtime_error.
