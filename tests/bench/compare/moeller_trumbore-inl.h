@@ -134,6 +134,12 @@ struct MoellerTrumboreLeaf {
             found.weight2[lane] * inverse,
             std::bit_cast<uint32_t>(rows[9 * hn::Lanes(Floats()) + static_cast<size_t>(lane)])};
   }
+  static constexpr size_t tests_together = 1;
+  template <Query>
+  static HWY_INLINE void hits(std::span<const Candidate<Found>> candidates, Hit* hits) {
+    const Candidate<Found>& only = candidates.front();
+    *hits = hit(only.rows, *only.found, only.lane, *only.ray);
+  }
 };
 
 /// The same where any hit will do: nothing is divided or kept.
@@ -149,6 +155,12 @@ struct AnyMoellerTrumboreLeaf {
   }
   static HWY_INLINE Hit hit(const float* HWY_RESTRICT, const Found&, int, const Ray&) {
     return {.t = 0, .primitive = 0};
+  }
+  static constexpr size_t tests_together = 1;
+  template <Query>
+  static HWY_INLINE void hits(std::span<const Candidate<Found>> candidates, Hit* hits) {
+    const Candidate<Found>& only = candidates.front();
+    *hits = hit(only.rows, *only.found, only.lane, *only.ray);
   }
 };
 

@@ -33,20 +33,18 @@ HWY_INLINE uint32_t hit_triangles(const float* HWY_RESTRICT block, const WideTre
   // Both hold for every vertex of a leaf whose padded box the ray meets at `entry`. The same in all
   // lanes: they are wanted there, and from fused steps.
   constexpr bool is_moved = slabs == Slabs::moved;
-  const auto largest_component = hn::Set(d, c.largest_component);
-  const auto reach = hn::Set(d, info.extent + c.slack);
+  const auto reach = hn::Add(hn::Set(d, info.extent), hn::Set(d, c.slack));
   const auto extent = slabs == Slabs::fused
                           ? reach
                           : hn::MulAdd(hn::Set(d, entry), hn::Set(d, 33 * u * c.largest_component),
                                        hn::Mul(reach, hn::Set(d, 1 + 64 * u)));
-  const auto distance = hn::MulAdd(hn::Set(d, entry), largest_component, extent);
-  const auto origin_error = hn::Set(d, is_moved ? 2 * c.origin_error : 0);
-  const auto vertex_error = hn::MulAdd(hn::Set(d, 10 * u), distance, origin_error);
-  // 17/16 (4e (2v + 16 u e) + 2 v v), e the extent and v a vertex's error.
+  const auto distance = hn::MulAdd(hn::Set(d, entry), hn::Set(d, c.largest_component), extent);
+  // 17/16 (8 e v + 64 u e e + 2 v v), e the extent and v = 10 u `from` a vertex's error, e <= from.
+  const auto from =
+      is_moved ? hn::Add(distance, hn::Set(d, c.origin_error * (0.2f / u))) : distance;
   const auto bound = hn::MulAdd(
-      hn::Mul(hn::Set(d, 8.5f), extent), hn::MulAdd(hn::Set(d, 8 * u), extent, vertex_error),
-      hn::MulAdd(hn::Mul(hn::Set(d, 2.125f), vertex_error), vertex_error,
-                 hn::Set(d, FLT_MIN)));  // products below it round absolutely
+      from, hn::MulAdd(from, hn::Set(d, 213 * u * u), hn::Mul(extent, hn::Set(d, 153 * u))),
+      hn::Set(d, FLT_MIN));  // products below it round absolutely
 
   const auto origin_x = hn::Set(d, c.leaf_origin[0]);
   const auto origin_y = hn::Set(d, c.leaf_origin[1]);
@@ -82,17 +80,19 @@ HWY_INLINE uint32_t hit_triangles(const float* HWY_RESTRICT block, const WideTre
   const auto determinant = hn::Add(hn::Add(e0, e1), e2);
   const auto size = hn::Abs(determinant);
   const auto numerator =
-      hn::Mul(hn::CopySignToAbs(hn::Set(d, 1.0f), hn::Xor(determinant, hn::Set(d, c.toward))),
-              hn::MulAdd(e2, z[2], hn::MulAdd(e1, z[1], hn::Mul(e0, z[0]))));
-  const auto error = hn::MulAdd(
-      size, hn::MulAdd(hn::Set(d, 5 * u), distance, hn::Set(d, is_moved ? c.origin_error : 0)),
-      hn::MulAdd(hn::Mul(hn::Set(d, 6.5f), bound), distance, hn::Set(d, FLT_MIN)));
+      hn::Xor(hn::MulAdd(e2, z[2], hn::MulAdd(e1, z[1], hn::Mul(e0, z[0]))),
+              hn::And(hn::Xor(determinant, hn::Set(d, c.toward)), hn::SignBit(d)));
+  const auto depth_error = hn::MulAdd(size, hn::Set(d, 5 * u), hn::Mul(bound, hn::Set(d, 6.5f)));
+  const auto error =
+      hn::MulAdd(distance, depth_error,
+                 is_moved ? hn::MulAdd(size, hn::Set(d, c.origin_error), hn::Set(d, FLT_MIN))
+                          : hn::Set(d, FLT_MIN));
   const auto least = hn::Sub(numerator, error);
   const auto most = hn::Add(numerator, error);
   const float limit = t_far * c.largest_component;
-  const auto size_error = hn::Mul(hn::Set(d, 3.25f), bound);
-  const auto beyond = hn::Or(hn::Gt(least, hn::Mul(hn::Set(d, limit), hn::Add(size, size_error))),
-                             hn::Lt(most, hn::Zero(d)));
+  const auto size_most = hn::MulAdd(bound, hn::Set(d, 3.25f), size);
+  const auto beyond =
+      hn::Or(hn::Gt(least, hn::Mul(hn::Set(d, limit), size_most)), hn::Lt(most, hn::Zero(d)));
   return crossed & ~bits_of(beyond);
 }
 

@@ -105,7 +105,7 @@ class Stream {
   /// Slots that wait for a step of one kind.
   struct Queue {
     uint32_t count = 0;
-    uint8_t slots[slot_count + 1];  // one more is written and does not count
+    uint8_t slots[slot_count + 1] = {};  // one more is written and does not count
     uint8_t taken[slot_count];
 
     HWY_INLINE void add_if(uint32_t condition, uint32_t slot) {
@@ -222,7 +222,7 @@ class Stream {
           slot.t_far);
       candidates.add_if(slot.found.possible != 0, index);
     }
-    for (const uint8_t index : candidates.take_all()) test_exactly(slots_[index], stacks_[index]);
+    test_exactly(candidates.take_all());
     for (const uint8_t index : slots) {
       Slot& slot = slots_[index];
       const bool is_over = query == Query::occluded && slot.best.is_hit();
@@ -236,19 +236,35 @@ class Stream {
     }
   }
 
-  void test_exactly(Slot& slot, StreamStack& stack) const {
-    const float* rows = block_rows(slot.current.index());
-    bool is_closer = false;
-    for (uint32_t bits = slot.found.possible; bits != 0; bits &= bits - 1) {
-      const Hit hit = Leaf::hit(rows, slot.found, std::countr_zero(bits), rays_[slot.ray]);
-      if (!hit.is_hit() || !hit.is_closer_than(slot.best)) continue;
-      slot.best = hit;
-      is_closer = true;
-      if constexpr (query == Query::occluded) return;
+  void test_exactly(std::span<const uint8_t> slots) {
+    Candidate<typename Leaf::Found> candidates[Leaf::tests_together];
+    uint8_t slot_of[Leaf::tests_together];
+    size_t count = 0;
+    const auto test = [&] {
+      Hit hits[Leaf::tests_together];
+      Leaf::template hits<query>({candidates, count}, hits);
+      for (size_t i = 0; i < count; ++i) keep_closer(hits[i], slot_of[i]);
+      count = 0;
+    };
+    for (const uint8_t index : slots) {
+      const Slot& slot = slots_[index];
+      const float* rows = block_rows(slot.current.index());
+      for (uint32_t bits = slot.found.possible; bits != 0; bits &= bits - 1) {
+        slot_of[count] = index;
+        candidates[count++] = {&rays_[slot.ray], rows, &slot.found, std::countr_zero(bits)};
+        if (count == Leaf::tests_together) test();
+      }
     }
-    if (!is_closer) return;
-    slot.t_far = std::min(slot.t_far, stop_at(slot.constants, slot.best.t));
-    slot.stack_size = cull(slot, stack);
+    if (count > 0) test();
+  }
+
+  void keep_closer(const Hit& hit, uint32_t index) {
+    Slot& slot = slots_[index];
+    if (!hit.is_hit() || !hit.is_closer_than(slot.best)) return;
+    slot.best = hit;
+    if constexpr (query == Query::occluded) return;
+    slot.t_far = std::min(slot.t_far, stop_at(slot.constants, hit.t));
+    slot.stack_size = cull(slot, stacks_[index]);
   }
 
   // Drops what lies beyond t_far. Returns what is left.

@@ -11,11 +11,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "tracer/bvh/build_settings.h"
+#include "tracer/bvh/trace/exact_lanes-inl.h"
 #include "tracer/bvh/trace/wide_kernels.h"
 #include "tracer/bvh/trace/wide_leaf-inl.h"
 #include "tracer/geometry/triangle-inl.h"
@@ -169,13 +171,69 @@ struct CountingProbe {
 };
 
 /// Of the triangle in the lane that begins at `v`, of a block of `width` lanes; no hit for a miss.
-HWY_INLINE Hit hit_exactly(const float* HWY_RESTRICT v, size_t width, const Ray& ray) {
+/// Not inlined: beside it the usual case would load one by one what it can broadcast from memory.
+HWY_NOINLINE inline Hit hit_exactly(const float* HWY_RESTRICT v, size_t width, const Ray& ray) {
   const auto vertex = [&](size_t row) {
     return Vec3f(v[row * width], v[(row + 1) * width], v[(row + 2) * width]);
   };
   const auto found = exact_triangle::intersect(ray, vertex(0), vertex(3), vertex(6));
   if (!found) return {};
   return {found->t, found->u, found->v, std::bit_cast<uint32_t>(v[9 * width])};
+}
+
+/// A triangle that a ray may hit: a lane of a block's rows.
+template <class Found>
+struct Candidate {
+  const Ray* ray;
+  const float* rows;
+  const Found* found;
+  int lane;
+};
+
+/// hit_exactly() of each candidate, as many as there are doubles in a vector at most.
+template <Query query, class Found>
+HWY_INLINE void hit_together(std::span<const Candidate<Found> > candidates,
+                             Hit* HWY_RESTRICT hits) {
+  const Doubles d;
+  const size_t width = hn::Lanes(Floats());
+  const auto triangle_of = [&](const Candidate<Found>& candidate) {
+    return candidate.rows + candidate.lane;
+  };
+  CornerLanes corners{};
+  CornerLanes ray_parts{};  // origin and direction
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    const float* v = triangle_of(candidates[i]);
+    const Ray& ray = *candidates[i].ray;
+    for (size_t row = 0; row < 9; ++row) corners.rows[row][i] = v[row * width];
+    for (int k = 0; k < 3; ++k) {
+      ray_parts.rows[k][i] = ray.origin[k];
+      ray_parts.rows[3 + k][i] = ray.direction[k];
+    }
+  }
+  const TriangleHitLanes found =
+      intersect_triangles(ray_parts.corner(0), ray_parts.corner(1), corners.corner(0),
+                          corners.corner(1), corners.corner(2));
+  alignas(64) double t[hn::MaxLanes(d)], u[hn::MaxLanes(d)], v[hn::MaxLanes(d)];
+  hn::Store(found.t, d, t);
+  if constexpr (query == Query::closest_hit) {
+    hn::Store(found.u, d, u);
+    hn::Store(found.v, d, v);
+  }
+  const uint32_t certain = bits_of(d, found.is_certain), inside = bits_of(d, found.is_inside);
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    const Candidate<Found>& candidate = candidates[i];
+    if (HWY_UNLIKELY((certain >> i & 1) == 0)) {
+      hits[i] = hit_exactly(triangle_of(candidate), width, *candidate.ray);
+    } else if ((inside >> i & 1) != 0 && t[i] >= candidate.ray->t_min &&
+               t[i] <= candidate.ray->t_max) {
+      hits[i].primitive = std::bit_cast<uint32_t>(triangle_of(candidate)[9 * width]);
+      if constexpr (query == Query::closest_hit) {
+        hits[i].t = t[i];
+        hits[i].u = u[i];
+        hits[i].v = v[i];
+      }
+    }
+  }
 }
 
 /// The triangles of a block, decided exactly. Benchmarks traverse with leaves of other kinds.
@@ -192,7 +250,22 @@ struct ExactLeaf {
   /// Of a lane that is possible.
   static HWY_INLINE Hit hit(const float* HWY_RESTRICT rows, const Found&, int lane,
                             const Ray& ray) {
-    return hit_exactly(rows + lane, hn::Lanes(Floats()), ray);
+    const float* v = rows + lane;
+    const size_t width = hn::Lanes(Floats());
+    if constexpr (has_four_doubles) {
+      const CertainTriangleHit found = intersect_certainly(ray, v, width);
+      if (HWY_LIKELY(found.is_certain)) {
+        if (!found.is_inside || !(found.t >= ray.t_min && found.t <= ray.t_max)) return {};
+        return {found.t, found.u, found.v, std::bit_cast<uint32_t>(v[9 * width])};
+      }
+    }
+    return hit_exactly(v, width, ray);
+  }
+  /// Of no more than `tests_together`; `hits` are none before.
+  static constexpr size_t tests_together = hn::MaxLanes(Doubles());
+  template <Query query>
+  static HWY_INLINE void hits(std::span<const Candidate<Found> > candidates, Hit* hits) {
+    hit_together<query>(candidates, hits);
   }
 };
 
