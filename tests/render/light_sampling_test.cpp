@@ -52,10 +52,8 @@ double sampled_irradiance(const Lights& lights, const Surface& surface, uint64_t
                           const Counts& counts) {
   double sum = 0;
   for (uint64_t i = 0; i < count; ++i) {
-    // Each light's share of the numbers is a run of them.
-    const double which = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
     const auto [u, v] = even_point<2>(i);
-    const LightSample sample = lights.sample(surface, which, {u, v});
+    const LightSample sample = lights.sample(surface, {u, v});
     const double cosine = glm::dot(sample.direction, surface.shading_normal);
     if (!(sample.pdf > 0 && cosine > 0 && counts(sample))) continue;
     sum += luminance(sample.radiance) * cosine / sample.pdf;
@@ -139,10 +137,9 @@ double form_factor(const Vec3f& corner, const Vec3f& side, const Vec3f& other_si
   const Lights lights(world, {});
   double sum = 0;
   for (uint64_t i = 0; i < count; ++i) {
-    const auto [x, z, u, v] = even_point<4>(i / 2);
+    const auto [x, z, u, v] = even_point<4>(i);
     const Surface surface = surface_at_point({x, 0, z}, {0, 1, 0});
-    const double which = i % 2 == 0 ? 0.25 : 0.75;  // of the square's triangles
-    const LightSample sample = lights.sample(surface, which, {u, v});
+    const LightSample sample = lights.sample(surface, {u, v});
     const double cosine = sample.direction.y;
     if (sample.pdf > 0 && cosine > 0) sum += cosine / sample.pdf;
   }
@@ -198,10 +195,10 @@ TEST(LightSampling, a_ray_that_finds_a_light_is_told_the_pdf_of_a_sample_that_do
   for (const World& world : worlds_of_lights()) {
     const Lights lights(world, {.sky_rotation = 70});
     for (uint64_t i = 0; i < 20'000; ++i) {
-      const auto [which, u, v, x, y] = even_point<5>(i);
+      const auto [u, v, x, y] = even_point<4>(i);
       const Surface surface =
           surface_at_point({4 * x - 2, 0.3, 4 * y - 2}, unit_or({x - 0.5, 1, y - 0.5}, {}));
-      const LightSample sample = lights.sample(surface, which, {u, v});
+      const LightSample sample = lights.sample(surface, {u, v});
       ASSERT_GT(sample.pdf, 0);
       double found;
       if (sample.triangle == no_primitive) {

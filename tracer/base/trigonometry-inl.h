@@ -39,12 +39,9 @@ struct CosSinOf {
   Real cos, sin;
 };
 
-/// Cosine and sine of 2 pi `turns`, |turns| < 2^50, each within 1e-15.
+/// Of angles in [-pi/4, pi/4].
 template <class Real>
-HWY_INLINE CosSinOf<Real> cos_sin_of_turns(Real turns) {
-  const Real quarters = (Real(4) * turns + Real(whole)) - Real(whole);
-  // In [-pi/4, pi/4]; the subtraction is exact.
-  const Real angle = (turns - Real(0.25) * quarters) * Real(2 * std::numbers::pi);
+HWY_INLINE CosSinOf<Real> cos_sin_series(Real angle) {
   const Real square = angle * angle;
   Real sin_series = sin_coefficients.back();
   Real cos_series = cos_coefficients.back();
@@ -52,7 +49,22 @@ HWY_INLINE CosSinOf<Real> cos_sin_of_turns(Real turns) {
     sin_series = Real(sin_coefficients[i]) + square * sin_series;
     cos_series = Real(cos_coefficients[i]) + square * cos_series;
   }
-  const Real sin = angle * sin_series;
+  return {cos_series, angle * sin_series};
+}
+
+/// Cosine and sine of pi/4 `eighths`, |eighths| <= 1, each within 1e-15.
+template <class Real>
+HWY_INLINE CosSinOf<Real> cos_sin_of_eighth_turns(Real eighths) {
+  return cos_sin_series(eighths * Real(std::numbers::pi / 4));
+}
+
+/// Cosine and sine of 2 pi `turns`, |turns| < 2^50, each within 1e-15.
+template <class Real>
+HWY_INLINE CosSinOf<Real> cos_sin_of_turns(Real turns) {
+  const Real quarters = (Real(4) * turns + Real(whole)) - Real(whole);
+  // In [-pi/4, pi/4]; the subtraction is exact.
+  const auto [cos_series, sin] =
+      cos_sin_series((turns - Real(0.25) * quarters) * Real(2 * std::numbers::pi));
   // -2 to 2.
   const Real quadrant = quarters - Real(4) * ((Real(0.25) * quarters + Real(whole)) - Real(whole));
   const auto is_odd = abs(quadrant) == Real(1);

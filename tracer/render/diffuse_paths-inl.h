@@ -12,6 +12,7 @@
 #include "tracer/render/integrator.h"
 #include "tracer/render/light_sampling.h"
 #include "tracer/render/sampler_lanes-inl.h"
+#include "tracer/render/sampling.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tracer {
@@ -148,7 +149,7 @@ class DiffusePaths {
   }
 
   void add_light() {
-    samplers_.next(samples_.data(), count_, &u_[0]);
+    samplers_.next_2d(samples_.data(), count_, &u_[0], &v_[0]);
     for (size_t i = 0; i < count_; ++i) {
       receivers_[i] = {origin_.get<Vec3f>(i), Vec3f(normal_.get<Vec3d>(i))};
     }
@@ -156,8 +157,8 @@ class DiffusePaths {
     for (size_t i = 0; i < count_; ++i) {
       light_probability_[i] = picks_[i].probability;
       triangle_.set(i, mesh_, picks_[i].triangle);
+      u_[i] = picks_[i].rest;
     }
-    samplers_.next_2d(samples_.data(), count_, &u_[0], &v_[0]);
     for (size_t i = 0; i < count_; i += step()) {
       const Vector3<Lanes> normal = normal_.at(i);
       const FlatSurface<Lanes> surface{position_.at(i), normal, Lanes(0)};
@@ -190,7 +191,6 @@ class DiffusePaths {
   }
 
   void scatter(int scatterings) {
-    constexpr int first_roulette = 6;
     samplers_.next_2d(samples_.data(), count_, &u_[0], &v_[0]);
     for (size_t i = 0; i < count_; i += step()) {
       const Vector3<Lanes> normal = normal_.at(i);
@@ -212,7 +212,7 @@ class DiffusePaths {
       const uint32_t sample = samples_[i];
       Vec3d throughput = throughput_.get<Vec3d>(i);
       if (is_roulette) {
-        const double survival = std::min(1.0, std::max({throughput.x, throughput.y, throughput.z}));
+        const double survival = survival_probability(throughput);
         if (u_[i] >= survival) continue;
         throughput /= survival;
       }

@@ -16,18 +16,34 @@ HWY_BEFORE_NAMESPACE();
 namespace tracer {
 namespace HWY_NAMESPACE {
 
+/// A point uniform in the unit disk, less than 1 from its centre; u uniform in [0, 1)^2, multiples
+/// of 2^-24. Squares become pieces of rings little longer than wide [Shirley 1997].
+template <class Real>
+struct DiskPoint {
+  Real x, y;
+};
+template <class Real>
+HWY_INLINE DiskPoint<Real> disk_point(Real u_x, Real u_y) {
+  // From the middle of each step.
+  const Real a = Real(2) * u_x - Real(1 - 0x1p-24), b = Real(2) * u_y - Real(1 - 0x1p-24);
+  const auto is_x_larger = abs(a) > abs(b);
+  const Real larger = select(is_x_larger, a, b), smaller = select(is_x_larger, b, a);
+  const CosSinOf<Real> around = cos_sin_of_eighth_turns(smaller / larger);
+  const Real along = larger * around.cos, across = larger * around.sin;
+  return {select(is_x_larger, along, across), select(is_x_larger, across, along)};
+}
+
 /// A unit vector about the unit vector `normal`, never below its plane; u uniform in [0, 1)^2. Its
 /// pdf by solid angle is its cosine / pi. [Duff 2017] for the frame.
 template <class Real>
 HWY_INLINE Vector3<Real> cosine_hemisphere(const Vector3<Real>& normal, Real u_x, Real u_y) {
-  const Real radius = sqrt(u_x);
-  const CosSinOf<Real> around = cos_sin_of_turns(u_y);
+  const DiskPoint<Real> p = disk_point(u_x, u_y);
   const Real sign = copy_sign(Real(1), normal.z);
   const Real a = Real(-1) / (sign + normal.z);
   const Real b = normal.x * normal.y * a;
   const Vector3<Real> x{Real(1) + sign * normal.x * normal.x * a, sign * b, -sign * normal.x};
   const Vector3<Real> y{b, sign + normal.y * normal.y * a, -normal.y};
-  return (radius * around.cos) * x + (radius * around.sin) * y + sqrt(Real(1) - u_x) * normal;
+  return p.x * x + p.y * y + sqrt(Real(1) - (p.x * p.x + p.y * p.y)) * normal;
 }
 
 /// Weight of a sample with `pdf` where the same could have come with `other_pdf`, by the power
@@ -36,6 +52,20 @@ template <class Real>
 HWY_INLINE Real power_heuristic(Real pdf, Real other_pdf) {
   const Real ratio = other_pdf / pdf;
   return Real(1) / (Real(1) + ratio * ratio);
+}
+
+/// Weights of a triangle's second and third corner, uniform by area; u uniform in [0, 1)^2. The
+/// square is folded onto half of it, which distorts less than a root [Heitz 2019].
+template <class Real>
+struct TrianglePoint {
+  Real u, v;
+};
+template <class Real>
+HWY_INLINE TrianglePoint<Real> triangle_point(Real u_x, Real u_y) {
+  const auto is_above = u_y > u_x;
+  const Real half = Real(0.5) * select(is_above, u_x, u_y);
+  const Real other = select(is_above, u_y, u_x) - half;
+  return {select(is_above, half, other), select(is_above, other, half)};
 }
 
 /// A point uniform by area on a light, seen from a surface.
@@ -52,8 +82,8 @@ template <class Real>
 HWY_INLINE LightPoint<Real> light_point(const Corners<Real>& light, Real u_x, Real u_y,
                                         const FlatSurface<Real>& surface,
                                         const Vector3<Real>& origin) {
-  const Real root = sqrt(u_x);
-  const Vector3<Real> point = light.at(root * (Real(1) - u_y), root * u_y);
+  const TrianglePoint<Real> where = triangle_point(u_x, u_y);
+  const Vector3<Real> point = light.at(where.u, where.v);
   const Vector3<Real> to_light = point - surface.position;
   const Real square = dot(to_light, to_light);
   const Vector3<Real> direction = unit_or(to_light, surface.normal);

@@ -16,11 +16,17 @@ double solid_angle_pdf(double area, double distance, double cosine) {
   return cosine > 0 && area > 0 ? distance * distance / (cosine * area) : 0;
 }
 
+double rest_of(double place, double part) {
+  return std::clamp(place / part, 0.0, 1 - 0x1p-53);
+}
+
 LightTree::Pick pick_by_power(const EmissiveTriangles& lights, double u) {
   const auto found = std::upper_bound(lights.cumulative.begin(), lights.cumulative.end(), u);
   const auto light =
       std::min<size_t>(found - lights.cumulative.begin(), lights.triangles.size() - 1);
-  return {static_cast<uint32_t>(light), lights.probabilities[light]};
+  const double before = light > 0 ? lights.cumulative[light - 1] : 0;
+  return {static_cast<uint32_t>(light), lights.probabilities[light],
+          rest_of(u - before, lights.probabilities[light])};
 }
 
 }  // namespace
@@ -39,10 +45,10 @@ Lights::Lights(const World& world, const RenderSettings& settings)
 }
 
 Lights::Pick Lights::pick(const LightReceiver& receiver, double which) const {
-  if (which < sky_share_) return {no_primitive, sky_share_};
-  const double rest = (which - sky_share_) / triangle_share_;
-  const LightTree::Pick pick = pick_triangle(receiver, rest);
-  return {triangles_.triangles[pick.light], triangle_share_ * pick.probability};
+  if (which < sky_share_) return {no_primitive, sky_share_, rest_of(which, sky_share_)};
+  const LightTree::Pick pick =
+      pick_triangle(receiver, rest_of(which - sky_share_, triangle_share_));
+  return {triangles_.triangles[pick.light], triangle_share_ * pick.probability, pick.rest};
 }
 
 void Lights::pick(std::span<const LightReceiver> receivers, std::span<const double> which,
@@ -54,12 +60,13 @@ void Lights::pick(std::span<const LightReceiver> receivers, std::span<const doub
   std::array<LightTree::Pick, SampleBlock::max_size> picked;
   triangles_.tree.pick(receivers, which, std::span(picked).first(receivers.size()));
   for (size_t i = 0; i < receivers.size(); ++i) {
-    picks[i] = {triangles_.triangles[picked[i].light], picked[i].probability};
+    picks[i] = {triangles_.triangles[picked[i].light], picked[i].probability, picked[i].rest};
   }
 }
 
-LightSample Lights::sample(const Surface& surface, double which, const Vec2d& where) const {
-  const Pick pick = this->pick(receiver_of(surface), which);
+LightSample Lights::sample(const Surface& surface, const Vec2d& u) const {
+  const Pick pick = this->pick(receiver_of(surface), u.x);
+  const Vec2d where(pick.rest, u.y);
   return pick.triangle == no_primitive ? sample_sky(surface, where)
                                        : sample_triangle(surface, pick, where);
 }

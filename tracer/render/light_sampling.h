@@ -30,14 +30,16 @@ class Lights {
   struct Pick {
     uint32_t triangle = 0;
     double probability = 0;
+    double rest = 0;  // of `which`, uniform in [0, 1) again
   };
   Pick pick(const LightReceiver& receiver, double which) const;
   /// The same for as many receivers at once, SampleBlock::max_size at most.
   void pick(std::span<const LightReceiver> receivers, std::span<const double> which,
             std::span<Pick> picks) const;
   /// A direction of the sky, or a triangle by power, and by place where they are many, and a point
-  /// on it by area. `which` and `where` uniform in [0, 1) and [0, 1)^2. Not empty().
-  LightSample sample(const Surface& surface, double which, const Vec2d& where) const;
+  /// on it by area. u uniform in [0, 1)^2: points that are even in it are so over all lights
+  /// together, and on each. Not empty().
+  LightSample sample(const Surface& surface, const Vec2d& u) const;
   /// The pdf by solid angle with which `sample`, for that receiver, finds the point of `triangle`
   /// at distance ray.direction * t; 0 for triangles that are not among the lights.
   double pdf(const LightReceiver& receiver, uint32_t triangle, const Ray& ray, double t) const;

@@ -188,8 +188,7 @@ class PathWavefront {
   bool pick_light(const Path& path, const Surface& surface, Scattered& scattered) {
     LightSample& light = scattered.light;
     Sampler& sampler = block_.samplers[path.sample];
-    const double which = sampler.next();
-    light = lights_.sample(surface, which, sampler.next_2d());
+    light = lights_.sample(surface, sampler.next_2d());
     const Scattering found =
         SurfaceScattering<features>(surface, path.viewer).eval(light.direction);
     if (!(light.pdf > 0 && found.pdf > 0)) {
@@ -221,7 +220,6 @@ class PathWavefront {
   }
 
   bool scatter(Path& path, const Surface& surface, int scatterings, Ray& ray) {
-    constexpr int first_roulette = 6;
     Sampler& sampler = block_.samplers[path.sample];
     const Scattering found = SurfaceScattering<features>(surface, path.viewer).sample(sampler);
     ray = {.origin = found.is_transmitted ? offset_origin_behind(surface) : offset_origin(surface),
@@ -236,7 +234,7 @@ class PathWavefront {
     // A part of the lobe: textures are seen through others too.
     path.spread = std::max(path.spread, std::min(0.1 / std::sqrt(found.pdf), 0.3));
     if (scatterings + 1 >= first_roulette) {
-      const double survival = std::min(1.0, std::max({throughput.x, throughput.y, throughput.z}));
+      const double survival = survival_probability(throughput);
       if (sampler.next() >= survival) return end("roulette");
       throughput /= survival;
     }
@@ -265,8 +263,8 @@ class PathWavefront {
 
 /// Surfaces lit by the sky and by emissive triangles. A path scatters at most
 /// settings.bounces times, and its last segment may still end on a light or in the sky: with 0,
-/// only what shines by itself is seen. Paths end at random from the fourth scattering on, with the
-/// rest weighted up, so that the mean stays the same. [Kajiya 1986]
+/// only what shines by itself is seen. Long paths end at random, with the rest weighted up, so that
+/// the mean stays the same. [Kajiya 1986]
 template <LightStrategy strategy>
 struct BasicPath {
   template <class Recorder>

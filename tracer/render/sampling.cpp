@@ -11,6 +11,11 @@ Vec3d sample_cosine_hemisphere(const Vec3d& normal, const Vec2d& u) {
   return {x, y, z};
 }
 
+Vec2d sample_triangle(const Vec2d& u) {
+  const auto [second, third] = HWY_NAMESPACE::triangle_point(u.x, u.y);
+  return {second, third};
+}
+
 double power_heuristic(double pdf, double other_pdf) {
   return HWY_NAMESPACE::power_heuristic(pdf, other_pdf);
 }

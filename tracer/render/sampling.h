@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -17,13 +18,18 @@ inline double pdf_cosine_hemisphere(double cosine) {
 
 /// Weights of a triangle's second and third vertex, uniform by area: pdf 1 / area. u uniform in
 /// [0, 1)^2.
-inline Vec2d sample_triangle(const Vec2d& u) {
-  const double root = std::sqrt(u.x);
-  return {root * (1 - u.y), root * u.y};
-}
+Vec2d sample_triangle(const Vec2d& u);
 
 /// Weight of a sample with `pdf` where the same could have come with `other_pdf`, by the power
 /// heuristic with exponent 2 [Veach 1995].
 double power_heuristic(double pdf, double other_pdf);
+
+/// From so many scatterings on paths end at random (Russian roulette): docs/error.md compares
+/// others.
+inline constexpr int first_roulette = 6;
+/// Probability with which a path of that throughput then goes on.
+inline double survival_probability(const Vec3d& throughput) {
+  return std::min(1.0, std::max({throughput.x, throughput.y, throughput.z}));
+}
 
 }  // namespace tracer

@@ -150,7 +150,7 @@ struct LightWalk {
   uint32_t at = 0;  // a node, or a light and leaf_bit
 
   bool is_over() const { return (at & LightTreeKernels::leaf_bit) != 0; }
-  LightTree::Pick pick() const { return {at & ~LightTreeKernels::leaf_bit, probability}; }
+  LightTree::Pick pick() const { return {at & ~LightTreeKernels::leaf_bit, probability, u}; }
 
   void step(const LightTree& tree) {
     const LightTreeKernels::Node& node = LightTreeKernels::node(tree, at);

@@ -32,6 +32,7 @@ class LightTree {
   struct Pick {
     uint32_t light = 0;
     double probability = 0;
+    double rest = 0;  // of u, uniform in [0, 1) again
   };
 
   LightTree() = default;

@@ -55,15 +55,16 @@ HWY_INLINE DoubleLanes sum_abs(const VectorLanes& v) {
 
 // Not below intersect_triangle's, whatever the order of the bounds' products.
 constexpr double lanes_weight_error = 37 * 0x1p-53;
+constexpr double lanes_sign_error = 19 * 0x1p-53;
 constexpr double lanes_quotient_error = 19 * 0x1p-53 / (0.9 * 0x1p-33);
 
 struct TriangleHitLanes {
   DoubleLanes t, u, v;
-  hn::Mask<Doubles> is_certain, is_inside;
+  hn::Mask<Doubles> is_certain, is_hit;
 };
 
-/// Where `is_certain`, the line meets the triangle where it `is_inside`, and t, u, v are those of
-/// intersect_triangle.
+/// Where `is_certain`, the ray hits the triangle if `is_hit` and t is in its range, and t, u, v are
+/// those of intersect_triangle.
 HWY_INLINE TriangleHitLanes intersect_triangles(const VectorLanes& origin,
                                                 const VectorLanes& direction, const VectorLanes& v0,
                                                 const VectorLanes& v1, const VectorLanes& v2) {
@@ -88,18 +89,23 @@ HWY_INLINE TriangleHitLanes intersect_triangles(const VectorLanes& origin,
                              hn::Add(max_abs(to_v0), length));
   const auto least_weight = hn::Min(hn::Min(hn::Abs(weight0), hn::Abs(v)), hn::Abs(w));
   const auto area = hn::Mul(length1, length2);
-  const auto least_area = hn::Mul(area, hn::Set(d, lanes_quotient_error));
-  const auto is_certain =
-      hn::And(hn::Gt(least_weight, bound),
-              hn::And(hn::Gt(hn::Abs(numerator), hn::Mul(least_area, sum_abs(to_v0))),
-                      hn::Gt(hn::Abs(determinant), hn::Mul(least_area, speed))));
-
+  const auto reach = hn::Mul(area, sum_abs(to_v0));
+  const auto size = hn::Abs(numerator);
   const auto zero = hn::Zero(d);
   const auto is_inside = hn::Or(hn::Gt(hn::Min(hn::Min(weight0, v), w), zero),
                                 hn::Lt(hn::Max(hn::Max(weight0, v), w), zero));
+  const auto is_behind = hn::And(hn::Lt(hn::Mul(numerator, sum), zero),
+                                 hn::Gt(size, hn::Mul(reach, hn::Set(d, lanes_sign_error))));
+  const auto is_hit = hn::AndNot(is_behind, is_inside);
+  const auto is_quotient_certain =
+      hn::And(hn::Gt(size, hn::Mul(reach, hn::Set(d, lanes_quotient_error))),
+              hn::Gt(hn::Abs(determinant),
+                     hn::Mul(hn::Mul(area, speed), hn::Set(d, lanes_quotient_error))));
+  const auto is_certain =
+      hn::And(hn::Gt(least_weight, bound), hn::Or(is_quotient_certain, hn::Not(is_hit)));
   const auto weight1 = hn::Div(v, sum);
   const auto weight2 = hn::Min(hn::Div(w, sum), hn::Sub(hn::Set(d, 1.0), weight1));
-  return {hn::Div(numerator, determinant), weight1, weight2, is_certain, is_inside};
+  return {hn::Div(numerator, determinant), weight1, weight2, is_certain, is_hit};
 }
 
 using FourDoubles = hn::CappedTag<double, 4>;
@@ -107,7 +113,7 @@ constexpr bool has_four_doubles = hn::MaxLanes(FourDoubles()) == 4;
 
 struct CertainTriangleHit {
   double t, u, v;
-  bool is_certain, is_inside;
+  bool is_certain, is_hit;
 };
 
 /// As intersect_triangles, of one ray, with its vectors in the lanes: where `has_four_doubles`.
@@ -163,13 +169,18 @@ HWY_INLINE CertainTriangleHit intersect_certainly(const Ray& ray, const float* H
   const double speed = sums[1];
   const double bound = lanes_weight_error * (speed * length) * (greatest[3] + length);
   const double least_weight = std::min(std::min(std::abs(weight0), std::abs(v)), std::abs(w));
-  const double least_area = greatest[0] * greatest[2] * lanes_quotient_error;
-  const bool is_certain = least_weight > bound && std::abs(numerator) > least_area * sums[3] &&
-                          std::abs(determinant) > least_area * speed;
+  const double area = greatest[0] * greatest[2];
+  const double reach = area * sums[3];
+  const double size = std::abs(numerator);
   const bool is_inside =
       std::min(std::min(weight0, v), w) > 0 || std::max(std::max(weight0, v), w) < 0;
+  const bool is_behind = numerator * sum < 0 && size > reach * lanes_sign_error;
+  const bool is_hit = is_inside && !is_behind;
+  const bool is_quotient_certain = size > reach * lanes_quotient_error &&
+                                   std::abs(determinant) > area * speed * lanes_quotient_error;
+  const bool is_certain = least_weight > bound && (!is_hit || is_quotient_certain);
   const double weight1 = v / sum;
-  return {numerator / determinant, weight1, std::min(w / sum, 1 - weight1), is_certain, is_inside};
+  return {numerator / determinant, weight1, std::min(w / sum, 1 - weight1), is_certain, is_hit};
 }
 
 /// Corners of triangles, one a lane.

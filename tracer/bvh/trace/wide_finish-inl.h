@@ -71,7 +71,7 @@ HWY_INLINE void finish_winners(const WideTree& tree, std::span<const Ray> rays,
   hn::Store(found.t, d, t);
   hn::Store(found.u, d, weight1);
   hn::Store(found.v, d, weight2);
-  const uint32_t certain = bits_of(d, found.is_certain);
+  const uint32_t certain = bits_of(d, hn::And(found.is_certain, found.is_hit));
   for (; won != 0; won &= won - 1) {
     const auto i = static_cast<size_t>(std::countr_zero(won));
     const float* v = rows_of(bundle.winner[first + i]);

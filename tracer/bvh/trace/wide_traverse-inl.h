@@ -219,12 +219,12 @@ HWY_INLINE void hit_together(std::span<const Candidate<Found> > candidates,
     hn::Store(found.u, d, u);
     hn::Store(found.v, d, v);
   }
-  const uint32_t certain = bits_of(d, found.is_certain), inside = bits_of(d, found.is_inside);
+  const uint32_t certain = bits_of(d, found.is_certain), hit = bits_of(d, found.is_hit);
   for (size_t i = 0; i < candidates.size(); ++i) {
     const Candidate<Found>& candidate = candidates[i];
     if (HWY_UNLIKELY((certain >> i & 1) == 0)) {
       hits[i] = hit_exactly(triangle_of(candidate), width, *candidate.ray);
-    } else if ((inside >> i & 1) != 0 && t[i] >= candidate.ray->t_min &&
+    } else if ((hit >> i & 1) != 0 && t[i] >= candidate.ray->t_min &&
                t[i] <= candidate.ray->t_max) {
       hits[i].primitive = std::bit_cast<uint32_t>(triangle_of(candidate)[9 * width]);
       if constexpr (query == Query::closest_hit) {
@@ -255,7 +255,7 @@ struct ExactLeaf {
     if constexpr (has_four_doubles) {
       const CertainTriangleHit found = intersect_certainly(ray, v, width);
       if (HWY_LIKELY(found.is_certain)) {
-        if (!found.is_inside || !(found.t >= ray.t_min && found.t <= ray.t_max)) return {};
+        if (!found.is_hit || !(found.t >= ray.t_min && found.t <= ray.t_max)) return {};
         return {found.t, found.u, found.v, std::bit_cast<uint32_t>(v[9 * width])};
       }
     }
