@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/compare/commands.h"
 
-#include "tests/bench/compare/load_memory.h"
+#include "tests/bench/compare/load_in_child.h"
 
 namespace bench {
 namespace {
@@ -16,6 +16,7 @@ constexpr Command table[] = {
     {"load", "loaders of OBJ files: speed, memory, wrong numbers", compare_loads},
     {"launch", "from starting the program to the first traced picture", measure_launch},
     {"load-once", "", load_once},
+    {"load-watched", "", load_watched},
 };
 
 }  // namespace

@@ -7,17 +7,15 @@
 
 #include <fmt/format.h>
 
-#include "app/stopwatch.h"
 #include "tests/bench/compare/choose.h"
 #include "tests/bench/compare/commands.h"
 #include "tests/bench/compare/load_files.h"
-#include "tests/bench/compare/load_memory.h"
+#include "tests/bench/compare/load_in_child.h"
 #include "tests/bench/compare/load_records.h"
 #include "tests/bench/compare/machine.h"
 #include "tests/bench/compare/obj_loaders.h"
 #include "tests/bench/compare/pinned_threads.h"
 #include "tests/bench/compare/report_files.h"
-#include "tracer/base/parallel.h"
 
 namespace bench {
 namespace {
@@ -28,6 +26,7 @@ struct Contestant {
   const ObjLoader* loader = nullptr;
   int threads = 1;
   std::vector<double> seconds{};  // one a round
+  uint64_t triangles = 0;
 };
 
 std::vector<Contestant> contestants() {
@@ -41,25 +40,15 @@ std::vector<Contestant> contestants() {
   return all;
 }
 
-// Letting go of the model is no part of loading it.
-double seconds_to_load(const ObjLoader& loader, const Path& path, uint64_t& triangle_count) {
-  const app::Stopwatch stopwatch;
-  const LoadedModel model = loader.load(path);
-  const double seconds = stopwatch.seconds();
-  triangle_count = model.triangle_count;
-  return seconds;
-}
-
 // Round by round, so that noise meets all of them. The first round, untimed, brings the file into
 // memory and must agree on its triangles.
 void run_rounds(const Path& path, int round_count, std::vector<Contestant>& all) {
   uint64_t expected_triangles = 0;
   for (int round = -1; round < round_count; ++round) {
     for (Contestant& contestant : all) {
-      uint64_t triangles = 0;
-      const double seconds = tracer::with_thread_count(
-          contestant.threads, [&] { return seconds_to_load(*contestant.loader, path, triangles); });
+      const auto [seconds, triangles] = time_load(*contestant.loader, path, contestant.threads);
       if (round >= 0) contestant.seconds.push_back(seconds);
+      contestant.triangles = triangles;
       if (expected_triangles == 0) expected_triangles = triangles;
       if (triangles != expected_triangles) {
         throw std::runtime_error(fmt::format("{} loads {} triangles of {}, boxwood {}",
@@ -98,11 +87,11 @@ LoadRecord make_record(const LoadFile& file, const Path& path, const Contestant&
   if (contestant.threads > 1) {
     record.ratio_to_one_thread = speed_ratio(find(all, record.loader.c_str(), 1), contestant);
   }
-  const LoadOnce once = load_in_child(*contestant.loader, path, contestant.threads);
-  record.peak_bytes = once.peak_bytes;
-  record.mesh_bytes = once.mesh_bytes;
-  record.triangles = once.triangles;
-  record.numbers = once.numbers;
+  const LoadMemory memory = watch_load(*contestant.loader, path, contestant.threads);
+  record.peak_bytes = memory.peak_bytes;
+  record.mesh_bytes = memory.mesh_bytes;
+  record.triangles = contestant.triangles;
+  record.numbers = memory.numbers;
   return record;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/bench/compare/load_memory.h"
+#include "tests/bench/compare/load_in_child.h"
 
 #include <algorithm>
 #include <atomic>
@@ -14,13 +14,15 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "app/stopwatch.h"
 #include "tests/support/run_program.h"
 #include "tracer/base/parallel.h"
 
 namespace bench {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(NumberCheck, checked, wrong)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadOnce, triangles, mesh_bytes, peak_bytes, held_bytes, numbers)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadTime, seconds, triangles)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadMemory, mesh_bytes, peak_bytes, held_bytes, numbers)
 
 namespace {
 
@@ -69,42 +71,63 @@ class PeakWatch {
   std::thread watch_;
 };
 
-LoadOnce load_watched(const ObjLoader& loader, const std::filesystem::path& path) {
-  LoadOnce once;
-  PeakWatch watch;
-  const LoadedModel model = loader.load(path);
-  once.held_bytes = watch.held();
-  once.peak_bytes = std::max(watch.stop(), once.held_bytes);
-  once.triangles = model.triangle_count;
-  once.mesh_bytes = model.bytes;
-  once.numbers = check_numbers(path, model);
-  return once;
-}
-
-}  // namespace
-
-LoadOnce load_in_child(const ObjLoader& loader, const std::filesystem::path& path,
-                       int thread_count) {
+template <class Record>
+Record in_child(const char* command, const ObjLoader& loader, const std::filesystem::path& path,
+                int thread_count) {
   const tests::ProgramResult result =
-      tests::ChildProgram("/proc/self/exe", {"load-once", "--loader", loader.name, "--threads",
+      tests::ChildProgram("/proc/self/exe", {command, "--loader", loader.name, "--threads",
                                              std::to_string(thread_count), "--file", path.string()})
           .wait();
   if (result.exit_code != 0) {
     throw std::runtime_error(fmt::format("{} ends with {} on {}: {}", loader.name, result.exit_code,
                                          path.string(), result.err));
   }
-  return nlohmann::json::parse(result.out).get<LoadOnce>();
+  return nlohmann::json::parse(result.out).get<Record>();
 }
 
-int load_once(const Options& options) {
+/// Prints what `measure` makes of the loader that the options name.
+template <class Measure>
+int as_child(const Options& options, const Measure& measure) {
   const auto loader = std::ranges::find(obj_loaders(), options.loader, &ObjLoader::name);
   if (loader == obj_loaders().end()) {
     throw std::invalid_argument("there is no loader '" + options.loader + "'");
   }
-  const LoadOnce once = tracer::with_thread_count(
-      options.thread_count, [&] { return load_watched(*loader, options.file); });
-  fmt::print("{}\n", nlohmann::json(once).dump());
+  const auto record =
+      tracer::with_thread_count(options.thread_count, [&] { return measure(*loader); });
+  fmt::print("{}\n", nlohmann::json(record).dump());
   return 0;
+}
+
+}  // namespace
+
+LoadTime time_load(const ObjLoader& loader, const std::filesystem::path& path, int thread_count) {
+  return in_child<LoadTime>("load-once", loader, path, thread_count);
+}
+
+LoadMemory watch_load(const ObjLoader& loader, const std::filesystem::path& path,
+                      int thread_count) {
+  return in_child<LoadMemory>("load-watched", loader, path, thread_count);
+}
+
+int load_once(const Options& options) {
+  return as_child(options, [&](const ObjLoader& loader) {
+    const app::Stopwatch stopwatch;
+    const LoadedModel model = loader.load(options.file);
+    return LoadTime{stopwatch.seconds(), model.triangle_count};
+  });
+}
+
+int load_watched(const Options& options) {
+  return as_child(options, [&](const ObjLoader& loader) {
+    LoadMemory memory;
+    PeakWatch watch;
+    const LoadedModel model = loader.load(options.file);
+    memory.held_bytes = watch.held();
+    memory.peak_bytes = std::max(watch.stop(), memory.held_bytes);
+    memory.mesh_bytes = model.bytes;
+    memory.numbers = check_numbers(options.file, model);
+    return memory;
+  });
 }
 
 }  // namespace bench
