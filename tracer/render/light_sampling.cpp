@@ -21,9 +21,9 @@ double rest_of(double place, double part) {
 }
 
 LightTree::Pick pick_by_power(const EmissiveTriangles& lights, double u) {
-  const auto found = std::upper_bound(lights.cumulative.begin(), lights.cumulative.end(), u);
-  const auto light =
-      std::min<size_t>(found - lights.cumulative.begin(), lights.triangles.size() - 1);
+  // Few: more have a tree.
+  size_t light = 0;
+  while (light + 1 < lights.triangles.size() && lights.cumulative[light] <= u) ++light;
   const double before = light > 0 ? lights.cumulative[light - 1] : 0;
   return {static_cast<uint32_t>(light), lights.probabilities[light],
           rest_of(u - before, lights.probabilities[light])};
@@ -53,12 +53,16 @@ Lights::Pick Lights::pick(const LightReceiver& receiver, double which) const {
 
 void Lights::pick(std::span<const LightReceiver> receivers, std::span<const double> which,
                   std::span<Pick> picks) const {
-  if (sky_share_ > 0 || triangles_.tree.empty()) {
+  if (sky_share_ > 0) {
     for (size_t i = 0; i < receivers.size(); ++i) picks[i] = pick(receivers[i], which[i]);
     return;
   }
   std::array<LightTree::Pick, SampleBlock::max_size> picked;
-  triangles_.tree.pick(receivers, which, std::span(picked).first(receivers.size()));
+  if (triangles_.tree.empty()) {
+    for (size_t i = 0; i < receivers.size(); ++i) picked[i] = pick_by_power(triangles_, which[i]);
+  } else {
+    triangles_.tree.pick(receivers, which, std::span(picked).first(receivers.size()));
+  }
   for (size_t i = 0; i < receivers.size(); ++i) {
     picks[i] = {triangles_.triangles[picked[i].light], picked[i].probability, picked[i].rest};
   }

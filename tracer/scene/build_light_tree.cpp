@@ -110,7 +110,7 @@ class LightTreeBuilder {
     node.x[child] = static_cast<float>(placed.x);
     node.y[child] = static_cast<float>(placed.y);
     node.z[child] = static_cast<float>(placed.z);
-    node.radius_squared[child] = grown * grown;
+    node.radius[child] = grown;
     node.axis_x[child] = static_cast<float>(axis.x);
     node.axis_y[child] = static_cast<float>(axis.y);
     node.axis_z[child] = static_cast<float>(axis.z);

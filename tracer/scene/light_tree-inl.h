@@ -66,7 +66,9 @@ class LightWeights {
   /// be foreseen.
   size_t child_at(double place) const {
     size_t child = 0;
-    for (size_t i = 0; i < width; ++i) child += sums_[i] <= place ? 1 : 0;
+    for (size_t i = 0; i < width; i += hn::Lanes(half)) {
+      child += hn::CountTrue(half, hn::Le(hn::Load(half, &sums_[i]), hn::Set(half, place)));
+    }
     if (child < width) return child;
     // Rounding led beyond the last child; it then is the last that has weight.
     for (child = width - 1; !(weights_[child] > 0);) --child;
@@ -86,7 +88,7 @@ class LightWeights {
     const Floats one = hn::Set(tag, 1.0f);
     const Floats limited = hn::Max(hn::Min(cos, one), hn::Neg(one));
     const Floats square = hn::Mul(limited, limited);
-    return {limited, hn::Sqrt(hn::Max(hn::Sub(one, square), hn::Zero(tag)))};
+    return {limited, hn::Sqrt(hn::Sub(one, square))};
   }
 
   /// a - b, and 0 where b is larger.
@@ -111,14 +113,14 @@ class LightWeights {
     const Floats x = hn::Sub(load(node.x), set(p.x));
     const Floats y = hn::Sub(load(node.y), set(p.y));
     const Floats z = hn::Sub(load(node.z), set(p.z));
-    const Floats nearest =
-        hn::Max(load(node.radius_squared), set(std::numeric_limits<float>::min()));
-    const Floats square = hn::Max(dot(x, y, z, x, y, z), nearest);
+    // Whose square is no denormal.
+    const Floats radius = hn::Max(load(node.radius), set(0x1p-63f));
+    const Floats square = hn::Max(dot(x, y, z, x, y, z), hn::Mul(radius, radius));
     const Floats inverse_square = hn::Div(set(1), square);
     const Floats inverse = hn::Sqrt(inverse_square);
     // The sphere's radius as seen from the receiver: a right angle from within.
-    const Floats sin_squared = hn::Min(hn::Mul(nearest, inverse_square), set(1));
-    const Angle seen{hn::Sqrt(hn::Sub(set(1), sin_squared)), hn::Sqrt(sin_squared)};
+    const Floats sin = hn::Min(hn::Mul(radius, inverse), set(1));
+    const Angle seen{hn::Sqrt(hn::Sub(set(1), hn::Mul(sin, sin))), sin};
     const Floats along =
         hn::Mul(dot(load(node.axis_x), load(node.axis_y), load(node.axis_z), x, y, z), inverse);
     const Angle leaving = angle_with_cos(hn::Abs(along));
@@ -133,13 +135,47 @@ class LightWeights {
     hn::Store(hn::Mul(hn::Mul(load(node.power), reach), inverse_square), tag, &weights_[first]);
   }
 
+  /// Each half by itself, in two steps, and the first half's sum to all of the second: in vectors
+  /// where four doubles fit, else one by one in the same order.
   void add_up() {
-    double sum = 0;
-    for (size_t i = 0; i < width; ++i) sums_[i] = sum += static_cast<double>(weights_[i]);
+    if constexpr (hn::MaxLanes(half) == 4) {
+      const auto first = sums_of_four(0);
+      const auto second = sums_of_four(4);
+      const auto all_of_first = hn::TableLookupLanes(first, hn::SetTableIndices(half, last_place));
+      hn::Store(first, half, &sums_[0]);
+      hn::Store(hn::Add(second, all_of_first), half, &sums_[4]);
+    } else {
+      for (size_t i = 0; i < width; i += 4) {
+        const auto weight = [&](size_t k) { return static_cast<double>(weights_[i + k]); };
+        const double two = weight(1) + weight(0);
+        sums_[i] = weight(0);
+        sums_[i + 1] = two;
+        sums_[i + 2] = (weight(2) + weight(1)) + weight(0);
+        sums_[i + 3] = (weight(3) + weight(2)) + two;
+      }
+      for (size_t i = 4; i < width; ++i) sums_[i] += sums_[3];
+    }
+  }
+
+  using Half = hn::CappedTag<double, width / 2>;
+  static constexpr Half half{};
+  static constexpr int64_t places_before[] = {0, 0, 1, 2};
+  static constexpr int64_t places_two_before[] = {0, 0, 0, 1};
+  static constexpr int64_t last_place[] = {3, 3, 3, 3};
+
+  hn::Vec<Half> sums_of_four(size_t first) const {
+    const auto before = [&](hn::Vec<Half> v, size_t steps, const int64_t* places) {
+      return hn::IfThenZeroElse(hn::FirstN(half, steps),
+                                hn::TableLookupLanes(v, hn::SetTableIndices(half, places)));
+    };
+    const hn::Rebind<float, Half> floats;
+    auto v = hn::PromoteTo(half, hn::Load(floats, &weights_[first]));
+    v = hn::Add(v, before(v, 1, places_before));
+    return hn::Add(v, before(v, 2, places_two_before));
   }
 
   alignas(64) LightTreeKernels::Eight weights_;
-  std::array<double, width> sums_;
+  alignas(64) std::array<double, width> sums_;
 };
 
 /// On the way from the root to a light.
@@ -180,14 +216,17 @@ void PickLights(const LightTree& tree, std::span<const LightReceiver> receivers,
     while (count > 0) {
       size_t kept = 0;
       for (size_t i = 0; i < count; ++i) {
-        LightWalk walk = walks[i];
+        LightWalk& walk = walks[i];
         walk.step(tree);
         if (walk.is_over()) {
           picks[owners[i]] = walk.pick();
-        } else {
-          walks[kept] = walk;
-          owners[kept++] = owners[i];
+          continue;
         }
+        if (kept != i) {
+          walks[kept] = walk;
+          owners[kept] = owners[i];
+        }
+        ++kept;
       }
       count = kept;
     }

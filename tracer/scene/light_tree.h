@@ -65,7 +65,7 @@ class LightTree {
   };
   /// Of each child; power 0 where there is none.
   struct alignas(64) Node {
-    Eight x{}, y{}, z{}, radius_squared{};   // sphere about all points
+    Eight x{}, y{}, z{}, radius{};           // sphere about all points
     Eight axis_x{}, axis_y{}, axis_z{};      // the lights' normals are
     Eight cos_spread{}, sin_spread{};        // no further from it or its opposite
     Eight power{};                           // parts of all lights'
