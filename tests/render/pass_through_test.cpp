@@ -85,6 +85,24 @@ TEST(PassThrough, light_is_found_through_veils_whichever_way_it_is_looked_for) {
   EXPECT_NEAR(scattered.mean, both.mean, 4 * scattered.standard_error);
 }
 
+TEST(PassThrough, previews_look_through_veils) {
+  const World open = make_shaded_floor(0);
+  const World veiled = make_shaded_floor(0.4f);
+  const World closed = make_shaded_floor(1);
+  // The camera looks under the veil. Beside it, and past the lamp, a probe sees the sky.
+  const auto openness = [](const World& world) {
+    return test::estimate(world, *find_integrator("ao"), {}, 20'000).mean;
+  };
+  const double none = openness(closed);
+  EXPECT_NEAR(openness(veiled), none + 0.6 * (openness(open) - none), 0.01);
+  EXPECT_GT(openness(open), none + 0.5);
+
+  const World veils = make_veils(2, 0.3f);
+  const test::Estimate seen = test::estimate(veils, *find_integrator("normals"), {}, 20'000);
+  const test::Estimate wall = test::estimate(make_veils(2, 1), *find_integrator("normals"), {}, 1);
+  EXPECT_NEAR(seen.mean, (1 - 0.7 * 0.7) * wall.mean, 4 * seen.standard_error);
+}
+
 TEST(PassThrough, pictures_have_the_same_bits_with_any_tree_and_when_nothing_is_skipped) {
   const Vec2i size(24, 24);
   const auto picture = [&](test::Tracing tracing, bool skips) {

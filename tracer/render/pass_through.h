@@ -45,4 +45,9 @@ inline double transmittance(const Scene& scene, RayCaster& rays, Ray ray) {
   return 0;
 }
 
+/// The same of a ray that meets something; nobody looks where no surface lets rays pass.
+inline double transmittance_past_hit(const Scene& scene, RayCaster& rays, const Ray& ray) {
+  return scene.surfaces.has_alpha ? transmittance(scene, rays, ray) : 0;
+}
+
 }  // namespace tracer

@@ -169,10 +169,8 @@ class PathWavefront {
     caster_.occluded({shadow_rays_.data(), shadow_count}, {is_occluded_.data(), shadow_count});
     for (size_t k = 0; k < shadow_count; ++k) {
       const auto& [i, light, radiance] = scattered_[k];
-      double share = is_occluded_[k] ? 0 : 1;
-      if (is_occluded_[k] && scene_.surfaces.has_alpha) {
-        share = transmittance(scene_, caster_, shadow_rays_[k]);
-      }
+      const double share =
+          is_occluded_[k] ? transmittance_past_hit(scene_, caster_, shadow_rays_[k]) : 1;
       if (share == 0) {
         recorder_.light(light, "occluded", Vec3d(0));
         continue;

@@ -7,6 +7,7 @@
 
 #include "tracer/base/directions.h"
 #include "tracer/render/integrator.h"
+#include "tracer/render/pass_through.h"
 #include "tracer/render/recorder.h"
 #include "tracer/render/sampling.h"
 #include "tracer/render/sky.h"
@@ -71,7 +72,8 @@ struct Normals {
 };
 
 /// The part of cosine-weighted directions in which nothing lies within the diagonal of the bounds,
-/// one direction a sample; white where nothing is hit: nothing is near.
+/// one direction a sample, with what thin surfaces let pass; white where nothing is hit: nothing is
+/// near.
 struct AmbientOcclusion {
   template <class Recorder>
   static void radiance(const World& world, RayCaster& rays, const RenderSettings&,
@@ -95,13 +97,15 @@ struct AmbientOcclusion {
         probes[probe_count++] = probe;
       } else {
         block.radiance[i] = Vec3d(0);
-        recorder.occlusion(probe, true);
+        recorder.occlusion(probe, 0);
       }
     }
     rays.occluded({probes.data(), probe_count}, {is_occluded.data(), probe_count});
     for (size_t k = 0; k < probe_count; ++k) {
-      block.radiance[samples[k]] = Vec3d(is_occluded[k] ? 0 : 1);
-      recorder.occlusion(probes[k], is_occluded[k] != 0);
+      const double open =
+          is_occluded[k] ? transmittance_past_hit(*world.scene, rays, probes[k]) : 1;
+      block.radiance[samples[k]] = Vec3d(open);
+      recorder.occlusion(probes[k], open);
     }
   }
 };

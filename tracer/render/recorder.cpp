@@ -51,9 +51,8 @@ void TextRecorder::light(const LightSample& sample, const char* verdict, const V
          words(sample.direction), sample.pdf, verdict, words(scattered));
 }
 
-void TextRecorder::occlusion(const Ray& ray, bool is_occluded) {
-  append(text_, "   occlusion  direction {}  {}\n", words(ray.direction),
-         is_occluded ? "occluded" : "open");
+void TextRecorder::occlusion(const Ray& ray, double open) {
+  append(text_, "   occlusion  direction {}  {} open\n", words(ray.direction), open);
 }
 
 void TextRecorder::end(const char* reason) {

@@ -14,7 +14,7 @@ struct NoRecorder {
   void hit(const Ray&, const Hit&, const Surface&, const Vec3d&, const Vec3d&) {}
   void sky(const Ray&, const Vec3d&, const Vec3d&) {}
   void light(const LightSample&, const char*, const Vec3d&) {}
-  void occlusion(const Ray&, bool) {}
+  void occlusion(const Ray&, double) {}
   void end(const char*) {}
 };
 
@@ -32,7 +32,8 @@ class TextRecorder {
            const Vec3d& radiance);
   void sky(const Ray& ray, const Vec3d& throughput, const Vec3d& radiance);
   void light(const LightSample& sample, const char* verdict, const Vec3d& scattered);
-  void occlusion(const Ray& ray, bool is_occluded);
+  /// `open`: the share of light that would come along the ray.
+  void occlusion(const Ray& ray, double open);
   void end(const char* reason);
 
  private:
