@@ -64,6 +64,10 @@ TEST_F(LoadEnvironment, files_that_are_no_map_are_refused_with_the_reason) {
   EXPECT_NE(error_of("text.hdr", "this is no picture").find("neither"), std::string::npos);
   EXPECT_NE(error_of("empty.exr", "").find("neither"), std::string::npos);
   EXPECT_NE(error_of("huge.hdr", hdr_of(2'000'000, 1'000'000, "")).find("too"), std::string::npos);
+  // Of a row that ends early stb_image reads for ever.
+  const std::string endless("\x02\x02\x00\x10\x00\x00", 6);
+  EXPECT_NE(error_of("endless.hdr", hdr_of(16, 8, endless)).find("damaged"), std::string::npos);
+  EXPECT_NE(error_of("photo.hdr", "P6 2 1 255\n......").find("neither"), std::string::npos);
   const std::string exr = encode_exr({{4, 2}, std::vector<Vec3f>(8, Vec3f(1))}, {}, {});
   EXPECT_NE(error_of("cut.exr", exr.substr(0, exr.size() / 2)).find("OpenEXR"), std::string::npos);
   EXPECT_THROW(load_environment(folder_ / "missing.hdr"), LoadError);
