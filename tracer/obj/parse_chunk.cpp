@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "tracer/obj/comment_paint.h"
+#include "tracer/obj/library_names.h"
 #include "tracer/obj/scan_lines.h"
 #include "tracer/obj/text_cursor.h"
 
@@ -14,41 +16,12 @@ namespace {
 
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
-bool ends_with_mtl(std::string_view name) {
-  if (name.size() < 4 || name[name.size() - 4] != '.') return false;
-  const std::string_view extension = name.substr(name.size() - 3);
-  return (extension[0] | 0x20) == 'm' && (extension[1] | 0x20) == 't' &&
-         (extension[2] | 0x20) == 'l';
-}
-
-/// "a.mtl my file.mtl" names two files: a name ends where a word ends in .mtl.
-std::vector<std::string> split_libraries(std::string_view text) {
-  std::vector<std::string> names;
-  size_t begin = 0;
-  while (begin < text.size() && text[begin] != '#') {
-    size_t end = begin;
-    do {
-      end = std::min(text.find(' ', end + 1), text.size());
-    } while (end < text.size() && !ends_with_mtl(text.substr(begin, end - begin)));
-    names.emplace_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return names;
-}
-
 /// Indices as the file has them: from 1, negative ones from the last defined, 0 for none.
 struct WrittenCorner {
   int32_t position = 0;
   int32_t texcoord = 0;
   int32_t normal = 0;
 };
-
-/// The value of a hexadecimal digit; -1 where it is none.
-int hexadecimal_value(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  const int letter = (c | 0x20) - 'a';
-  return letter >= 0 && letter < 6 ? letter + 10 : -1;
-}
 
 class ChunkParser {
  public:
@@ -92,24 +65,9 @@ class ChunkParser {
   const char* scan_comment(const char* at) {
     const char* end = at;
     while (end != cursor_.end() && !is_line_end(*end)) ++end;
-    constexpr std::string_view paint = "#MRGB ";
-    const std::string_view comment(at, static_cast<size_t>(end - at));
-    if (comment.starts_with(paint)) parse_paint(comment.substr(paint.size()));
+    read_paint({at, static_cast<size_t>(end - at)}, chunk_.painted);
     if (end == cursor_.end()) return nullptr;
     return end + (end + 1 < cursor_.end() && end[0] == '\r' && end[1] == '\n' ? 2 : 1);
-  }
-
-  /// ZBrush's polypaint: eight hexadecimal digits a vertex.
-  void parse_paint(std::string_view digits) {
-    for (; digits.size() >= 8; digits.remove_prefix(8)) {
-      uint32_t mrgb = 0;
-      for (const char c : digits.substr(0, 8)) {
-        const int value = hexadecimal_value(c);
-        if (value < 0) return;
-        mrgb = mrgb * 16 + static_cast<uint32_t>(value);
-      }
-      chunk_.painted.push_back(mrgb);
-    }
   }
 
   void parse_statement(std::string_view keyword) {
