@@ -47,7 +47,7 @@ bool Session::State::is_wanted(const BuiltTree& built) const {
 
 // Not before there is a picture: the first passes have all threads for themselves.
 bool Session::State::wants_improvement() {
-  return edits.improve && is_edited_model() && tree.may_improve() && renderer.status().samples > 0;
+  return edits.improve && is_edited_model() && tree.may_improve() && renderer.has_samples();
 }
 
 bool Session::State::has_idle_tree() const {

@@ -97,6 +97,11 @@ RenderStatus SessionRenderer::status() {
   return {is_rendering_, is_picture_whole, is_finished, pass_.sample, rates_, passes_, errors_};
 }
 
+bool SessionRenderer::has_samples() {
+  const std::lock_guard lock(mutex_);
+  return pass_.sample > 0;
+}
+
 bool SessionRenderer::has_work() const {
   const bool is_good_enough =
       limits_.error > 0 && !errors_.empty() && errors_.back().error.upper_bound() <= limits_.error;

@@ -73,6 +73,8 @@ class SessionRenderer {
 
   TileQueue::Taken take_tiles() { return tiles_.take(); }
   RenderStatus status();
+  /// Whether every pixel has been traced once.
+  bool has_samples();
 
  private:
   void run();

@@ -73,6 +73,24 @@ TEST_F(RenderCommand, improve_rounds_lower_the_cost_and_keep_the_bits) {
   EXPECT_LT(cost_of(improved), cost_of(built));
 }
 
+TEST_F(RenderCommand, layers_without_a_name_a_picture_or_a_format_that_holds_them_are_refused) {
+  const auto error_of = [](const Arguments& arguments) {
+    const ProgramResult result = run_boxwood(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    return result.err;
+  };
+  const auto is_said = [](const std::string& error, const char* text) {
+    return error.find(text) != std::string::npos;
+  };
+  const std::string unknown = error_of(with_defaults(folder_ / "x.exr", {"--aov", "depth,death"}));
+  EXPECT_TRUE(is_said(unknown, "death") && is_said(unknown, "albedo")) << unknown;
+  const std::string flat = error_of(with_defaults(folder_ / "x.png", {"--aov", "depth"}));
+  EXPECT_TRUE(is_said(flat, "cannot hold layers") && is_said(flat, "x.exr")) << flat;
+  const std::string nowhere =
+      error_of({"render", model_, "--aov", "all", "--stats", folder_ / "stats.json"});
+  EXPECT_TRUE(is_said(nowhere, "-o FILE.exr")) << nowhere;
+}
+
 TEST_F(RenderCommand, png_and_exr_carry_how_they_were_made) {
   for (const char* name : {"cube.png", "cube.exr"}) {
     const std::string bytes = render({"--spp", "3", "--seed", "41"}, name);

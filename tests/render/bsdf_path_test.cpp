@@ -2,28 +2,18 @@
 // Whole paths over surfaces that reflect, are coated, or let light through.
 #include <gtest/gtest.h>
 
+#include "tests/support/path_strategies.h"
 #include "tests/support/worlds.h"
-#include "tracer/render/path.h"
 
 namespace tracer {
 namespace {
 
+using test::by_lights;
+using test::by_scattering;
 using test::estimate;
 using test::Estimate;
+using test::path;
 using test::Triangles;
-
-template <LightStrategy strategy>
-void radiance_by(const World& world, RayCaster& rays, const RenderSettings& settings,
-                 const SampleBlock& block) {
-  NoRecorder recorder;
-  BasicPath<strategy>::radiance(world, rays, settings, block, recorder);
-}
-
-const Integrator& path() {
-  return *find_integrator("path");
-}
-const Integrator by_lights{"", "", "", radiance_by<LightStrategy::light_sampling>, nullptr};
-const Integrator by_scattering{"", "", "", radiance_by<LightStrategy::scattering>, nullptr};
 
 Material material_of(const Principled& p, double emission = 0) {
   Material material;

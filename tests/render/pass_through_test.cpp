@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/path_strategies.h"
 #include "tests/support/worlds.h"
-#include "tracer/render/path.h"
 
 namespace tracer {
 namespace {
+
+using test::by_scattering;
+using test::path;
 
 constexpr double sky = 3;
 
@@ -16,13 +19,6 @@ Material veil(float opacity) {
   material.opacity = opacity;
   return material;
 }
-
-void radiance_by_scattering(const World& world, RayCaster& rays, const RenderSettings& settings,
-                            const SampleBlock& block) {
-  NoRecorder none;
-  BasicPath<LightStrategy::scattering>::radiance(world, rays, settings, block, none);
-}
-const Integrator by_scattering{"", "", "", radiance_by_scattering, nullptr};
 
 /// Black veils, one behind the other, between the eye and the sky.
 World make_veils(int count, float opacity, const Vec3d& radiance = Vec3d(sky)) {
@@ -34,10 +30,6 @@ World make_veils(int count, float opacity, const Vec3d& radiance = Vec3d(sky)) {
   World world = test::make_world(triangles, {veil(opacity)}, radiance);
   test::set_camera(world, {.eye = {0, 0, 5}, .target = {0, 0, 0}, .fov_degrees = 20}, {1, 1});
   return world;
-}
-
-const Integrator& path() {
-  return *find_integrator("path");
 }
 
 TEST(PassThrough, veils_let_their_shares_of_camera_rays_pass) {

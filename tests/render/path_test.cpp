@@ -3,28 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/path_strategies.h"
 #include "tests/support/worlds.h"
 
 namespace tracer {
 namespace {
 
+using test::by_lights;
+using test::by_scattering;
 using test::diffuse;
 using test::estimate;
 using test::Estimate;
+using test::path;
 using test::Triangles;
-
-template <LightStrategy strategy>
-void radiance_by(const World& world, RayCaster& rays, const RenderSettings& settings,
-                 const SampleBlock& block) {
-  NoRecorder recorder;
-  BasicPath<strategy>::radiance(world, rays, settings, block, recorder);
-}
-
-const Integrator& path() {
-  return *find_integrator("path");
-}
-const Integrator by_lights{"", "", "", radiance_by<LightStrategy::light_sampling>, nullptr};
-const Integrator by_scattering{"", "", "", radiance_by<LightStrategy::scattering>, nullptr};
 
 /// Inside a closed box that emits 1 everywhere, off the middle.
 World furnace(double albedo) {

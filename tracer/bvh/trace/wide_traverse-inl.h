@@ -213,11 +213,11 @@ HWY_INLINE void hit_together(std::span<const Candidate<Found> > candidates,
   const TriangleHitLanes found =
       intersect_triangles(ray_parts.corner(0), ray_parts.corner(1), corners.corner(0),
                           corners.corner(1), corners.corner(2));
-  alignas(64) double t[hn::MaxLanes(d)], u[hn::MaxLanes(d)], v[hn::MaxLanes(d)];
+  alignas(64) double t[hn::MaxLanes(d)], weight1[hn::MaxLanes(d)], weight2[hn::MaxLanes(d)];
   hn::Store(found.t, d, t);
   if constexpr (query == Query::closest_hit) {
-    hn::Store(found.u, d, u);
-    hn::Store(found.v, d, v);
+    hn::Store(found.u, d, weight1);
+    hn::Store(found.v, d, weight2);
   }
   const uint32_t certain = bits_of(d, found.is_certain), hit = bits_of(d, found.is_hit);
   for (size_t i = 0; i < candidates.size(); ++i) {
@@ -229,8 +229,8 @@ HWY_INLINE void hit_together(std::span<const Candidate<Found> > candidates,
       hits[i].primitive = std::bit_cast<uint32_t>(triangle_of(candidate)[9 * width]);
       if constexpr (query == Query::closest_hit) {
         hits[i].t = t[i];
-        hits[i].u = u[i];
-        hits[i].v = v[i];
+        hits[i].u = weight1[i];
+        hits[i].v = weight2[i];
       }
     }
   }
