@@ -8,6 +8,7 @@
 
 #include <GLFW/glfw3.h>
 
+#include "tracer/base/byte_source.h"
 #include "tracer/render/write_image.h"
 
 namespace app {
@@ -92,8 +93,7 @@ double Viewer::due_seconds() const {
 
 void Viewer::wait() {
   const double frame_wait = due_seconds() - glfwGetTime();
-  const bool has_file = !requested_path_.empty();
-  const double timeout = has_file ? std::min(frame_wait, watch_interval) : frame_wait;
+  const double timeout = has_file() ? std::min(frame_wait, watch_interval) : frame_wait;
   if (timeout <= 0) {
     window_.poll_events();
   } else if (timeout == std::numeric_limits<double>::infinity()) {
@@ -104,7 +104,13 @@ void Viewer::wait() {
 }
 
 void Viewer::watch_files() {
-  if (!is_job_running() && file_watch_.has_changed(glfwGetTime())) open(requested_path_);
+  if (has_file() && !is_job_running() && file_watch_.has_changed(glfwGetTime())) {
+    open(requested_path_);
+  }
+}
+
+bool Viewer::has_file() const {
+  return !requested_path_.empty() && !tracer::is_standard_input(requested_path_);
 }
 
 bool Viewer::has_finished_picture() const {

@@ -45,6 +45,8 @@ class Viewer {
   void adopt_model();
   std::optional<tracer::View> find_view();
   void open(const std::filesystem::path& path);
+  /// That can be read again.
+  bool has_file() const;
   void hold_back_build();
   void send_edits();
   void answer_edits();

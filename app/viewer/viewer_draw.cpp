@@ -10,6 +10,7 @@
 #include "app/viewer/panels/overlay.h"
 #include "app/viewer/panels/statistics_panel.h"
 #include "app/viewer/viewer.h"
+#include "tracer/base/byte_source.h"
 
 namespace app {
 namespace {
@@ -50,9 +51,8 @@ void Viewer::draw_background() {
 }
 
 void Viewer::draw_header(const Ui& ui) {
-  const std::string name = adopted_path_.empty()
-                               ? std::string("Boxwood")
-                               : std::filesystem::path(adopted_path_).filename().string();
+  const std::string name =
+      adopted_path_.empty() ? std::string("Boxwood") : tracer::short_name_of_input(adopted_path_);
   const float button_width = 58 * ui.scale;
   const float help_width = ImGui::GetFrameHeight();
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;

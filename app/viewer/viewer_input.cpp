@@ -8,6 +8,7 @@
 #include <GLFW/glfw3.h>
 
 #include "app/viewer/viewer.h"
+#include "tracer/base/byte_source.h"
 
 namespace app {
 namespace {
@@ -48,10 +49,10 @@ void Viewer::handle_key(const InputEvent& event) {
 void Viewer::execute(Command command) {
   switch (command) {
     case Command::open:
-      open_dialog_.open(requested_path_.empty() ? working_folder() : requested_path_.parent_path());
+      open_dialog_.open(has_file() ? requested_path_.parent_path() : working_folder());
       break;
     case Command::reload:
-      if (!requested_path_.empty()) open(requested_path_);
+      if (has_file()) open(requested_path_);
       break;
     case Command::save_view:
       save_view();
@@ -113,6 +114,9 @@ void Viewer::escape() {
 
 void Viewer::save_view() {
   if (adopted_path_.empty()) return;
+  if (tracer::is_standard_input(adopted_path_)) {
+    return show_toast("A view is saved beside its model's file; this model has none");
+  }
   const std::filesystem::path path = tracer::view_path_of(adopted_path_);
   try {
     tracer::save_view(path, {viewpoint_.camera(), picture_.size_px(), settings_.sky()});

@@ -11,6 +11,7 @@
 
 #include "app/viewer/panels/overlay.h"
 #include "app/viewer/viewer.h"
+#include "tracer/base/byte_source.h"
 
 namespace app {
 namespace {
@@ -34,7 +35,7 @@ const tracer::Integrator* first_integrator(const tracer::Scene& scene) {
 void Viewer::open(const std::filesystem::path& path) {
   std::error_code error;
   const std::filesystem::path absolute = std::filesystem::absolute(path, error);
-  requested_path_ = error ? path : absolute;
+  requested_path_ = error || tracer::is_standard_input(path) ? path : absolute;
   file_watch_.watch(requested_path_);  // before it is read: a change during the load counts
   session_.open(requested_path_);
   shown_error_.clear();
@@ -87,8 +88,7 @@ void Viewer::adopt_model() {
     settings_.shading = model.scene.shading;
     if (adopted_generation_ == 0) settings_.integrator = first_integrator(model.scene);
     if (view && view->sky) settings_.set_sky(*view->sky);
-    const std::string name = std::filesystem::path(status_.model_path).filename().string();
-    window_.set_title(name + " - Boxwood");
+    window_.set_title(tracer::short_name_of_input(status_.model_path) + " - Boxwood");
   }
   adopted_generation_ = status_.model_generation;
   adopted_path_ = status_.model_path;

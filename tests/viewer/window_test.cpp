@@ -248,6 +248,30 @@ TEST_F(WindowTest, frames_and_screenshot_write_the_whole_window) {
   EXPECT_EQ(byte(22) << 8 | byte(23), height_px);
 }
 
+TEST_F(WindowTest, a_model_from_standard_input_is_shown_and_read_only_once) {
+  write_ball(folder_.path() / "ball.obj", 10);
+  program_ = std::make_unique<ChildProgram>(
+      "/bin/sh",
+      std::vector<std::string>{"-c",
+                               "exec " BOXWOOD_PROGRAM " view - --size 760x800 --spp 1 <ball.obj"},
+      ErrorStream::pipe, folder_.path());
+  ASSERT_TRUE(wait_for_widget("model"));
+  move_to(150, 20);
+  ASSERT_TRUE(wait_until_settled());
+  const auto picture = look_at("picture");
+  press_key("F5");
+  press_key("ctrl+s");
+  ASSERT_TRUE(wait_for_widget("toast"));
+  ASSERT_TRUE(wait_until([&] { return !find_widget("toast").has_value(); }));
+  ASSERT_TRUE(wait_until_settled());
+  EXPECT_EQ(look_at("picture"), picture);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "-.view.json"));
+  press_key("ctrl+q");
+  const ProgramResult result = program_->wait();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+}
+
 TEST_F(WindowTest, a_first_model_that_cannot_be_shown_ends_a_test_run_with_2) {
   write_file(folder_.path() / "bad.obj", "v 0 0 0\nf 1 2 9\n");
   start({"bad.obj", "--frames", "1"});

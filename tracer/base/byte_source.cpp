@@ -122,14 +122,22 @@ class PeekedSource : public ByteSource {
 
 std::unique_ptr<ByteSource> open_as_it_is(const std::filesystem::path& path,
                                           const Progress& progress) {
-  if (path == standard_input) return std::make_unique<StandardInput>(progress);
+  if (is_standard_input(path)) return std::make_unique<StandardInput>(progress);
   return std::make_unique<FileSource>(path);
 }
 
 }  // namespace
 
+bool is_standard_input(const std::filesystem::path& path) {
+  return path == standard_input;
+}
+
 std::string name_of_input(const std::filesystem::path& path) {
-  return path == standard_input ? "standard input" : path.string();
+  return is_standard_input(path) ? "standard input" : path.string();
+}
+
+std::string short_name_of_input(const std::filesystem::path& path) {
+  return name_of_input(path.filename());
 }
 
 std::unique_ptr<ByteSource> open_byte_source(const std::filesystem::path& path,

@@ -48,8 +48,12 @@ class MemorySource : public ByteSource {
   size_t taken_ = 0;
 };
 
+/// Whether the path, "-", stands for standard input, which can be read only once.
+bool is_standard_input(const std::filesystem::path& path);
 /// How messages call the file at `path`.
 std::string name_of_input(const std::filesystem::path& path);
+/// The same without the folder.
+std::string short_name_of_input(const std::filesystem::path& path);
 
 /// A regular file, or standard input for the path "-"; what gzip or zstd packed is unpacked,
 /// whatever its name. Waiting for standard input ends when `progress` is asked to stop. Throws

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/viewer/commands.h"
+#include "tracer/base/byte_source.h"
 
 namespace app {
 namespace {
@@ -69,7 +70,7 @@ void draw_sheet_row(const char* keys, const char* what) {
 
 OverlayAnswer draw_progress(const Ui& ui, const PictureArea& area, const Status& status) {
   begin_floating(ui, "##progress", area, ImVec2(0.5f, 1));
-  const std::string model = std::filesystem::path(status.loading_path).filename().string();
+  const std::string model = tracer::short_name_of_input(status.loading_path);
   const std::string subject = status.is_loading ? "Loading " + model : "Building";
   ImGui::TextUnformatted(subject.c_str());
   ImGui::SameLine();
