@@ -49,16 +49,23 @@ inline void check_mesh(const Mesh& mesh) {
           "a material a triangle");
 }
 
+/// Whatever the chunks, and with or without texture coordinates.
+inline void check_same_faces(const ObjFile& a, const ObjFile& b) {
+  require(a.face_count == b.face_count, "as many faces");
+  require(a.counts.texcoords == b.counts.texcoords, "as many texture coordinates");
+  require(a.warnings.count() == b.warnings.count(), "as many warnings");
+  for (size_t i = 0; i < a.warnings.messages().size(); ++i) {
+    require(a.warnings.messages()[i].text() == b.warnings.messages()[i].text(),
+            "the same messages");
+  }
+}
+
 inline void check_obj(std::string_view bytes) {
   Progress progress;
   ObjFile file = parse_obj(bytes, "x.obj", progress);
-  const ObjFile chunked = parse_obj_in_chunks(bytes, "x.obj", 16, progress);
-  require(file.face_count == chunked.face_count, "chunks change no faces");
-  require(file.warnings.count() == chunked.warnings.count(), "chunks change no warnings");
-  for (size_t i = 0; i < file.warnings.messages().size(); ++i) {
-    require(file.warnings.messages()[i].text() == chunked.warnings.messages()[i].text(),
-            "chunks change no messages");
-  }
+  check_same_faces(file, parse_obj_in_chunks(bytes, "x.obj", 16, progress));
+  const ObjFile bare = parse_obj_in_chunks(bytes, "x.obj", 16, progress, Texcoords::dropped);
+  if (!bare.lacks_texcoords) check_same_faces(file, bare);
   require(file.dropped_faces <= file.warnings.count(), "each dropped face has a warning");
   try {
     const ObjMesh made = make_mesh(file, "x.obj", progress);

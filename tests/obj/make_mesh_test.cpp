@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tracer/base/parallel.h"
+#include "tracer/obj/parse_obj.h"
 
 namespace tracer {
 namespace {
@@ -104,6 +105,36 @@ TEST(MakeMesh, texture_coordinates_and_materials_follow_their_triangles) {
   EXPECT_EQ(mesh.texcoord_indices[1], Vec3u(0, 1, 2));
   EXPECT_EQ(mesh.texcoord_indices[2], Vec3u(0, 2, no_index));
   EXPECT_EQ(mesh.materials, (LargeVector<uint32_t>{0, 1, 1}));
+}
+
+TEST(MakeMesh, texture_coordinates_nobody_needs_are_dropped_as_they_are_read) {
+  const std::string vertices = square + "vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n";
+  const std::string faces = "f 1/1/1 2/2/1 3/3/1 4/1/1\nf 1/1 2/2 3/3\nf 2//1 3//1 4//1\nf 1 3 4\n";
+  const auto parse = [](const std::string& text) {
+    Progress progress;
+    return parse_obj_in_chunks(text, "x.obj", 16, progress, Texcoords::dropped);
+  };
+  Progress progress;
+  ObjFile bare = parse(vertices + faces);
+  EXPECT_FALSE(bare.lacks_texcoords);
+  EXPECT_EQ(bare.counts.texcoords, 3u);
+  const Mesh mesh = make_mesh(bare, "x.obj", progress, Texcoords::dropped).mesh;
+  const Mesh whole = make(vertices + faces).mesh;
+  EXPECT_EQ(mesh.triangles, whole.triangles);
+  EXPECT_EQ(mesh.normal_indices, whole.normal_indices);
+  EXPECT_TRUE(mesh.texcoord_indices.empty());
+
+  // Named at the begin, the library is known before the first is dropped.
+  const ObjFile named = parse("mtllib a.mtl\n" + vertices + faces);
+  EXPECT_FALSE(named.lacks_texcoords);
+  EXPECT_TRUE(has_texcoord(named.chunks.back().chunk.runs[0].form) ||
+              has_texcoord(named.chunks[named.chunks.size() - 2].chunk.runs[0].form));
+  EXPECT_TRUE(parse(vertices + faces + "mtllib a.mtl\n").lacks_texcoords);
+  EXPECT_TRUE(parse(vertices + "f 1/1 2/2 3/4\n").lacks_texcoords);
+  // Relative ones are kept, and so are their faults.
+  const ObjFile relative = parse(vertices + "f 1/-1 2/-2 3/-4\n");
+  EXPECT_FALSE(relative.lacks_texcoords);
+  EXPECT_EQ(relative.warnings.count(), 1);
 }
 
 TEST(MakeMesh, colors_run_from_0_to_1_or_from_0_to_255_and_default_to_white) {

@@ -248,7 +248,7 @@ TEST(ParseObj, limits_are_errors_that_say_so) {
     const std::string text = four_vertices + "f 1 2 3 4\nf 1 2 3\n";
     MemorySource source(text);
     try {
-      parse_obj(source, "x.obj", progress, limits);
+      parse_obj(source, "x.obj", progress, Texcoords::kept, limits);
     } catch (const LoadError& error) {
       return error.what();
     }

@@ -102,6 +102,22 @@ TEST(ImportObj, texture_coordinates_are_kept_where_a_used_material_has_a_texture
   EXPECT_EQ(mapped.scene.mesh->texcoords.size(), 4u);
 }
 
+TEST(ImportObj, a_library_at_the_end_of_a_large_file_has_its_textures) {
+  const TemporaryFolder folder;
+  folder.write("m.mtl", "newmtl mapped\nmap_Kd white.ppm\n");
+  folder.write("white.ppm", white_ppm);
+  std::string text = square;
+  while (text.size() < 1'000'000) text += textured_face;
+  const ImportedScene imported =
+      import(folder.write("late.obj", text + "mtllib m.mtl\nusemtl mapped\n" + textured_face));
+  EXPECT_EQ(imported.warnings.count(), 0) << warning(imported, 0);
+  const Mesh& mesh = *imported.scene.mesh;
+  EXPECT_EQ(mesh.texcoords.size(), 4u);
+  EXPECT_EQ(mesh.texcoord_indices[mesh.triangle_count() / 2], Vec3u(0, 1, 2));
+  EXPECT_EQ(imported.scene.textures->size(), 1u);
+  EXPECT_GT(imported.file_bytes, text.size());
+}
+
 TEST(ImportObj, a_missing_library_is_a_warning_and_its_materials_are_grey) {
   const TemporaryFolder folder;
   const auto path = folder.write(

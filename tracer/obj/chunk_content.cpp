@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tracer/obj/chunk_content.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace tracer {
@@ -15,6 +16,20 @@ WorldBounds bounds_of_usable(std::span<const Vec3d> positions) {
     if (fits_float(position)) bounds.extend(position);
   }
   return bounds;
+}
+
+/// Of one form's corners, to what may be their own place or before it; the end of what is written.
+int32_t* copy_without_texcoords(const int32_t* from, uint64_t corner_count, CornerForm form,
+                                int32_t* to) {
+  if (!has_texcoord(form)) {
+    const uint64_t index_count = corner_count * indices_a_corner(form);
+    return std::copy_n(from, index_count, to);
+  }
+  for (uint64_t i = 0; i < corner_count; ++i, from += indices_a_corner(form)) {
+    *to++ = from[0];
+    if (has_normal(form)) *to++ = from[2];
+  }
+  return to;
 }
 
 }  // namespace
@@ -46,6 +61,20 @@ void ChunkContent::add_run(uint32_t corner_count, CornerForm form, uint32_t mate
               material, line, static_cast<uint32_t>(positions.size()),
               static_cast<uint32_t>(texcoords.size()), static_cast<uint32_t>(normals.size()),
               form});
+}
+
+void ChunkContent::drop_texcoords() {
+  int32_t* const first = indices.elements().data();
+  int32_t* to = first;
+  for (FaceRun& run : runs_.elements()) {
+    const int32_t* const from = first + run.first_index;
+    const uint64_t corner_count = uint64_t{run.face_count} * run.corner_count;
+    run.first_index = static_cast<uint64_t>(to - first);
+    to = copy_without_texcoords(from, corner_count, run.form, to);
+    run.form = without_texcoord(run.form);
+  }
+  indices.drop_back_to(static_cast<size_t>(to - first));
+  texcoords.drop_back_to(0);
 }
 
 void ChunkContent::copy_to(ObjChunk& chunk, ChunkMemory& memory) const {

@@ -29,6 +29,7 @@ class Filled {
   size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   T& back() { return elements_[size_ - 1]; }
+  std::span<T> elements() { return {elements_.data(), size_}; }
   std::span<const T> elements() const { return {elements_.data(), size_}; }
 
  private:
@@ -59,6 +60,9 @@ class ChunkContent {
 
   /// Adds the face whose indices are the last of `indices`.
   void add_face(uint32_t corner_count, CornerForm form, uint32_t material, uint32_t line);
+
+  /// Takes them, and their indices, out of all that has been added.
+  void drop_texcoords();
 
   /// Exact copies of all arrays, and what can be said of them.
   void copy_to(ObjChunk& chunk, ChunkMemory& memory) const;

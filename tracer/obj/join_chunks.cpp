@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tracer/obj/join_chunks.h"
 
+#include <algorithm>
 #include <limits>
 #include <unordered_map>
 
@@ -47,6 +48,9 @@ class Joiner {
   }
 
   ObjFile join() {
+    file_.lacks_texcoords =
+        std::any_of(file_.chunks.begin(), file_.chunks.end(),
+                    [&](const PlacedChunk& placed) { return lacks_texcoords(placed.chunk); });
     check_all_faces();
     warn_of_free_forms();
     paint();
@@ -76,6 +80,12 @@ class Joiner {
     file_.counts.positions += counts.positions;
     file_.counts.texcoords += counts.texcoords;
     file_.counts.normals += counts.normals;
+  }
+
+  /// What was dropped may be of use, or has a fault to tell of.
+  bool lacks_texcoords(const ObjChunk& chunk) const {
+    return chunk.has_dropped_texcoords &&
+           (!file_.material_libraries.empty() || chunk.largest.texcoord > file_.counts.texcoords);
   }
 
   void check_all_faces() {

@@ -14,9 +14,6 @@ struct ObjMesh {
   Warnings warnings;
 };
 
-/// Whether anybody will look textures up.
-enum class Texcoords { kept, dropped };
-
 /// Triangulates (concave polygons by ear clipping in the polygon's own plane), subtracts the
 /// centre of the bounds in double and rounds once to float. Lets go of the file's vertices and
 /// faces as it goes, and leaves the rest of it. Throws LoadError when no triangle is left,

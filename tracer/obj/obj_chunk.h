@@ -44,6 +44,13 @@ constexpr uint32_t indices_a_corner(CornerForm form) {
   return 1u + has_texcoord(form) + has_normal(form);
 }
 
+constexpr CornerForm without_texcoord(CornerForm form) {
+  return has_normal(form) ? CornerForm::normal : CornerForm::position;
+}
+
+/// Whether anybody will look textures up.
+enum class Texcoords { kept, dropped };
+
 /// Faces on consecutive lines that have as many corners each, of one form. The counts are of what
 /// the chunk has defined before them.
 struct FaceRun {
@@ -82,6 +89,8 @@ struct ObjChunk {
   PageArray<Vec3d> positions;
   PageArray<Vec3f> colors;  // empty, or one a position; NaN where the text has none
   PageArray<Vec2f> texcoords;
+  uint64_t texcoord_count = 0;  // of those dropped too
+  bool has_dropped_texcoords = false;
   PageArray<Vec3f> normals;
   // As written: from 1, negative ones from the last defined, 0 for none. Positions are never 0.
   PageArray<int32_t> indices;
@@ -103,7 +112,7 @@ struct ObjChunk {
   int64_t dropped_faces = 0;
   Warnings warnings;  // without the path
 
-  ObjCounts counts() const { return {positions.size(), texcoords.size(), normals.size()}; }
+  ObjCounts counts() const { return {positions.size(), texcoord_count, normals.size()}; }
 };
 
 /// Whether a float can hold the position.

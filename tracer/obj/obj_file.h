@@ -38,6 +38,7 @@ struct ObjFile {
   ObjCounts counts;
   uint64_t face_count = 0;              // those that are not dropped
   bool has_colors = false;              // of any vertex
+  bool lacks_texcoords = false;         // dropped, and of use: it is to be parsed with them
   std::vector<ObjName> material_names;  // [0] is "" until the first usemtl
   std::vector<ObjName> material_libraries;
   uint32_t object_count = 0;  // o
@@ -48,10 +49,12 @@ struct ObjFile {
 };
 
 /// Parses a whole file. `path` is only for messages. What is wrong is dropped and said in
-/// `warnings` as path:line. Throws LoadError where the source does or a limit is passed, and
-/// Cancelled.
+/// `warnings` as path:line. With Texcoords::dropped, texture coordinates are dropped unless the
+/// file's begin names a material library; `lacks_texcoords` tells where that was wrong. Throws
+/// LoadError where the source does or a limit is passed, and Cancelled.
 ObjFile parse_obj(ByteSource& source, const std::string& path, Progress& progress,
-                  const ObjLimits& limits = {});
-ObjFile parse_obj(std::string_view bytes, const std::string& path, Progress& progress);
+                  Texcoords texcoords = Texcoords::kept, const ObjLimits& limits = {});
+ObjFile parse_obj(std::string_view bytes, const std::string& path, Progress& progress,
+                  Texcoords texcoords = Texcoords::kept);
 
 }  // namespace tracer

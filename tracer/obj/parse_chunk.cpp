@@ -25,8 +25,8 @@ struct WrittenCorner {
 
 class ChunkParser {
  public:
-  ChunkParser(const TextBlock& block, ChunkContent& content)
-      : block_(block), cursor_(block.text()), content_(content) {
+  ChunkParser(const TextBlock& block, ChunkContent& content, Texcoords texcoords)
+      : block_(block), cursor_(block.text()), content_(content), texcoords_(texcoords) {
     content_.reset(block.text().size());
     chunk_.material_names.emplace_back();
   }
@@ -35,6 +35,11 @@ class ChunkParser {
     do {
       scan_lines();
     } while (parse_next_statement());
+    chunk_.texcoord_count = content_.texcoords.size();
+    if (texcoords_ == Texcoords::dropped && !has_relative_texcoord()) {
+      content_.drop_texcoords();
+      chunk_.has_dropped_texcoords = true;
+    }
     content_.copy_to(chunk_, memory);
     chunk_.line_count = cursor_.line() - 1 + block_.lines_left_out();
     return std::move(chunk_);
@@ -53,6 +58,11 @@ class ChunkParser {
       place = {std::min(next, cursor_.end()), place.line + 1};
     }
     cursor_.move_to(place.at, place.line);
+  }
+
+  /// Whether that exists is known only for each index by itself.
+  bool has_relative_texcoord() const {
+    return chunk_.largest.texcoord > static_cast<uint32_t>(std::numeric_limits<int32_t>::max());
   }
 
   bool parse_next_statement() {
@@ -284,6 +294,7 @@ class ChunkParser {
   const TextBlock& block_;
   TextCursor cursor_;
   ChunkContent& content_;
+  const Texcoords texcoords_;
   ObjChunk chunk_;
   CornerForm form_ = CornerForm::position;  // of the last face
   std::vector<WrittenCorner> corners_;
@@ -293,8 +304,9 @@ class ChunkParser {
 
 }  // namespace
 
-ObjChunk parse_obj_chunk(const TextBlock& block, ChunkContent& content, ChunkMemory& memory) {
-  return ChunkParser(block, content).parse(memory);
+ObjChunk parse_obj_chunk(const TextBlock& block, ChunkContent& content, Texcoords texcoords,
+                         ChunkMemory& memory) {
+  return ChunkParser(block, content, texcoords).parse(memory);
 }
 
 }  // namespace tracer

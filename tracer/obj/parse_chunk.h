@@ -9,6 +9,7 @@ namespace tracer {
 
 /// What a block of text says. Never fails: what is wrong is dropped and said in the warnings.
 /// `content` is used meanwhile; the chunk's arrays are in `memory`.
-ObjChunk parse_obj_chunk(const TextBlock& block, ChunkContent& content, ChunkMemory& memory);
+ObjChunk parse_obj_chunk(const TextBlock& block, ChunkContent& content, Texcoords texcoords,
+                         ChunkMemory& memory);
 
 }  // namespace tracer

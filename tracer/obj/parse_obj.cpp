@@ -17,14 +17,16 @@ constexpr size_t usual_chunk_bytes = size_t{1} << 17;
 class ChunkedParser {
  public:
   ChunkedParser(ByteSource& source, const std::string& path, size_t chunk_bytes,
-                const ObjLimits& limits, Progress& progress)
+                Texcoords texcoords, const ObjLimits& limits, Progress& progress)
       : reader_(source, chunk_bytes),
         source_(source),
         path_(path),
+        texcoords_(texcoords),
         limits_(limits),
         progress_(progress) {}
 
   std::vector<ObjChunk> parse() {
+    if (texcoords_ == Texcoords::dropped) parse_begin();
     parallel_workers([&] { work(); });
     progress_.throw_if_stopped();
     progress_.set_fraction(1);
@@ -32,11 +34,22 @@ class ChunkedParser {
   }
 
  private:
+  /// Exporters name the material library first.
+  void parse_begin() {
+    TextBlock block;
+    ChunkContent content;
+    size_t index = 0;
+    if (!take(block, index)) return;
+    ObjChunk chunk = parse_obj_chunk(block, content, Texcoords::kept, memory_);
+    if (!chunk.material_libraries.empty()) texcoords_ = Texcoords::kept;
+    put(std::move(chunk), index);
+  }
+
   void work() {
     TextBlock block;
     ChunkContent content;
     for (size_t index = 0; take(block, index);) {
-      put(parse_obj_chunk(block, content, memory_), index);
+      put(parse_obj_chunk(block, content, texcoords_, memory_), index);
     }
   }
 
@@ -74,6 +87,7 @@ class ChunkedParser {
   StatementReader reader_;
   ByteSource& source_;
   const std::string& path_;
+  Texcoords texcoords_;
   const ObjLimits& limits_;
   Progress& progress_;
   std::vector<ObjChunk> chunks_;
@@ -84,27 +98,28 @@ class ChunkedParser {
 };
 
 ObjFile parse_source(ByteSource& source, const std::string& path, size_t chunk_bytes,
-                     const ObjLimits& limits, Progress& progress) {
+                     Texcoords texcoords, const ObjLimits& limits, Progress& progress) {
   progress.start_stage("reading");
-  return join_chunks(ChunkedParser(source, path, chunk_bytes, limits, progress).parse(), path,
-                     progress);
+  ChunkedParser parser(source, path, chunk_bytes, texcoords, limits, progress);
+  return join_chunks(parser.parse(), path, progress);
 }
 
 }  // namespace
 
 ObjFile parse_obj_in_chunks(std::string_view bytes, const std::string& path, size_t chunk_bytes,
-                            Progress& progress) {
+                            Progress& progress, Texcoords texcoords) {
   MemorySource source(bytes);
-  return parse_source(source, path, chunk_bytes, {}, progress);
+  return parse_source(source, path, chunk_bytes, texcoords, {}, progress);
 }
 
-ObjFile parse_obj(std::string_view bytes, const std::string& path, Progress& progress) {
-  return parse_obj_in_chunks(bytes, path, usual_chunk_bytes, progress);
+ObjFile parse_obj(std::string_view bytes, const std::string& path, Progress& progress,
+                  Texcoords texcoords) {
+  return parse_obj_in_chunks(bytes, path, usual_chunk_bytes, progress, texcoords);
 }
 
 ObjFile parse_obj(ByteSource& source, const std::string& path, Progress& progress,
-                  const ObjLimits& limits) {
-  return parse_source(source, path, usual_chunk_bytes, limits, progress);
+                  Texcoords texcoords, const ObjLimits& limits) {
+  return parse_source(source, path, usual_chunk_bytes, texcoords, limits, progress);
 }
 
 }  // namespace tracer

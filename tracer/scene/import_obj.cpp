@@ -14,14 +14,25 @@ struct ReadObj {
 };
 
 /// The source is closed before the mesh is made.
-ReadObj read_obj(const std::filesystem::path& path, const std::string& name, Progress& progress) {
+ReadObj read_obj(const std::filesystem::path& path, const std::string& name, Texcoords texcoords,
+                 Progress& progress) {
   progress.start_stage("reading");
   const auto source = open_byte_source(path, progress);
-  ObjFile file = parse_obj(*source, name, progress);
+  ObjFile file = parse_obj(*source, name, progress, texcoords);
   if (source->bytes_taken() == 0) {
     throw LoadError({name, 0, "no triangles to show: the file is empty"});
   }
   return {std::move(file), source->bytes_taken()};
+}
+
+/// Nearly all files that name no material library at their begin name none: a second look at those
+/// that do costs less than texture coordinates nobody needs. Standard input has no second look.
+ReadObj read_obj(const std::filesystem::path& path, const std::string& name, Progress& progress) {
+  if (is_standard_input(path)) return read_obj(path, name, Texcoords::kept, progress);
+  ReadObj read = read_obj(path, name, Texcoords::dropped, progress);
+  if (!read.file.lacks_texcoords) return read;
+  read = {};
+  return read_obj(path, name, Texcoords::kept, progress);
 }
 
 /// Textures are of use where there are coordinates to look them up by.
