@@ -11,6 +11,7 @@
 #include "tracer/scene/decode_exr.h"
 #include "tracer/scene/hdr_runs.h"
 #include "tracer/scene/jpeg_tables.h"
+#include "tracer/scene/png_chunks.h"
 #include "tracer/scene/pnm_header.h"
 
 namespace tracer {
@@ -108,6 +109,7 @@ Texture decode_image(std::string_view bytes, TexelEncoding encoding) {
   if (!has_sound_huffman_tables(bytes)) fail("a damaged JPEG: too many Huffman codes");
   if (!has_sound_pnm_header(bytes)) fail("a PNM too large, or of more than 8 bits");
   if (!has_sound_hdr_runs(bytes)) fail("a damaged HDR: rows that end too early");
+  if (!has_sound_png_chunks(bytes)) fail("a damaged PNG: the file ends within a chunk");
   return StbDecoder(bytes).decode(encoding);
 }
 
