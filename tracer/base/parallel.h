@@ -68,6 +68,16 @@ void parallel_for_ranges(size_t begin, size_t end, size_t grain, F&& f) {
   });
 }
 
+/// Whether f(begin, end) is true of any part of [begin, end) of about `grain` elements.
+template <class F>
+bool parallel_any_of_ranges(size_t begin, size_t end, size_t grain, F&& f) {
+  std::atomic<bool> is_any{false};
+  parallel_for_ranges(begin, end, grain, [&](size_t part_begin, size_t part_end) {
+    if (f(part_begin, part_end)) is_any.store(true, std::memory_order_relaxed);
+  });
+  return is_any;
+}
+
 /// Calls f(i) for each i in [begin, end), one task each.
 template <class F>
 void parallel_for_each_index(size_t begin, size_t end, F&& f) {

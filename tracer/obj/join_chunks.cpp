@@ -41,7 +41,7 @@ class MaterialTable {
 
 class Joiner {
  public:
-  Joiner(std::vector<ObjChunk> chunks, const std::string& path, Progress& progress)
+  Joiner(std::deque<ObjChunk> chunks, const std::string& path, Progress& progress)
       : path_(path), progress_(progress), materials_(file_.material_names) {
     file_.chunks.reserve(chunks.size());
     for (ObjChunk& chunk : chunks) place(std::move(chunk));
@@ -142,7 +142,7 @@ class Joiner {
 
 }  // namespace
 
-ObjFile join_chunks(std::vector<ObjChunk> chunks, const std::string& path, Progress& progress) {
+ObjFile join_chunks(std::deque<ObjChunk> chunks, const std::string& path, Progress& progress) {
   return Joiner(std::move(chunks), path, progress).join();
 }
 

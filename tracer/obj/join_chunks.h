@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <deque>
 #include <string>
-#include <vector>
 
 #include "tracer/obj/obj_chunk.h"
 #include "tracer/obj/obj_file.h"
@@ -11,6 +11,6 @@ namespace tracer {
 
 /// One file from its chunks in order: indices resolved and checked against the whole file, faces
 /// that name missing vertices dropped, lines and materials counted from the file's start.
-ObjFile join_chunks(std::vector<ObjChunk> chunks, const std::string& path, Progress& progress);
+ObjFile join_chunks(std::deque<ObjChunk> chunks, const std::string& path, Progress& progress);
 
 }  // namespace tracer

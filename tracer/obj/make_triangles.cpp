@@ -150,6 +150,14 @@ void make_room(const ObjFile& file, uint64_t triangle_count, Mesh& mesh) {
   mesh.materials.resize(file.material_names.size() > 1 ? triangle_count : 0);
 }
 
+bool has_zero_normal(const Mesh& mesh) {
+  const auto first = mesh.normals.begin();
+  return parallel_any_of_ranges(0, mesh.normals.size(), 1 << 15, [&](size_t begin, size_t end) {
+    const auto last = first + static_cast<std::ptrdiff_t>(end);
+    return std::find(first + static_cast<std::ptrdiff_t>(begin), last, Vec3f(0.0f)) != last;
+  });
+}
+
 void drop_unused(const std::vector<TriangleRange>& ranges, Mesh& mesh) {
   const auto uses = [&](bool TriangleRange::*member) {
     return std::any_of(ranges.begin(), ranges.end(),
@@ -170,8 +178,7 @@ void make_triangles(ObjFile& file, Mesh& mesh, std::vector<Warnings>& faults, Pr
     triangle_count += file.chunks[i].chunk.triangle_count;
   }
   make_room(file, triangle_count, mesh);
-  const bool has_zero_normal =
-      std::find(mesh.normals.begin(), mesh.normals.end(), Vec3f(0.0f)) != mesh.normals.end();
+  const bool has_zero_normal = tracer::has_zero_normal(mesh);
   std::atomic<size_t> done{0};
   parallel_for_each_index(0, ranges.size(), [&](size_t i) {
     progress.throw_if_stopped();

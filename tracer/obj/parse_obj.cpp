@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "tracer/obj/parse_obj.h"
 
+#include <deque>
 #include <mutex>
 
+#include "tracer/base/brief_mutex.h"
 #include "tracer/base/parallel.h"
 #include "tracer/obj/join_chunks.h"
 #include "tracer/obj/parse_chunk.h"
@@ -18,14 +20,14 @@ class ChunkedParser {
  public:
   ChunkedParser(ByteSource& source, const std::string& path, size_t chunk_bytes,
                 Texcoords texcoords, const ObjLimits& limits, Progress& progress)
-      : reader_(source, chunk_bytes),
-        source_(source),
+      : source_(source),
         path_(path),
         texcoords_(texcoords),
         limits_(limits),
-        progress_(progress) {}
+        progress_(progress),
+        reader_(source, chunk_bytes) {}
 
-  std::vector<ObjChunk> parse() {
+  std::deque<ObjChunk> parse() {
     if (texcoords_ == Texcoords::dropped) parse_begin();
     parallel_workers([&] { work(); });
     progress_.throw_if_stopped();
@@ -54,7 +56,7 @@ class ChunkedParser {
   }
 
   bool take(TextBlock& block, size_t& index) {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(reader_mutex_);
     progress_.throw_if_stopped();
     if (!reader_.next(block)) return false;
     index = block_count_++;
@@ -63,7 +65,7 @@ class ChunkedParser {
   }
 
   void put(ObjChunk&& chunk, size_t index) {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(chunks_mutex_);
     const ObjCounts counts = chunk.counts();
     add(totals_.positions, counts.positions, limits_.vertices, "vertices");
     add(totals_.texcoords, counts.texcoords, limits_.vertices, "texture coordinates");
@@ -82,16 +84,19 @@ class ChunkedParser {
                          ", which 32-bit indices cannot count"});
   }
 
-  ChunkMemory memory_;
-  std::mutex mutex_;
-  StatementReader reader_;
   ByteSource& source_;
   const std::string& path_;
   Texcoords texcoords_;
   const ObjLimits& limits_;
   Progress& progress_;
-  std::vector<ObjChunk> chunks_;
+  ChunkMemory memory_;
+
+  BriefMutex reader_mutex_;
+  StatementReader reader_;
   size_t block_count_ = 0;
+
+  BriefMutex chunks_mutex_;
+  std::deque<ObjChunk> chunks_;  // which stay where they are as more come
   ObjCounts totals_;
   uint64_t corner_count_ = 0;
   uint64_t triangle_count_ = 0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <atomic>
 #include <numeric>
 
 #include "tracer/base/directions.h"
@@ -13,16 +12,15 @@ namespace {
 
 bool has_normals_everywhere(const Mesh& mesh) {
   if (mesh.normal_indices.empty()) return false;
-  std::atomic<bool> is_any_missing{false};
-  parallel_for_ranges(0, mesh.normal_indices.size(), 1 << 16, [&](size_t begin, size_t end) {
+  const size_t count = mesh.normal_indices.size();
+  return !parallel_any_of_ranges(0, count, 1 << 16, [&](size_t begin, size_t end) {
     uint32_t largest = 0;  // no_index is
     for (size_t i = begin; i < end; ++i) {
       const Vec3u& indices = mesh.normal_indices[i];
       largest = std::max({largest, indices.x, indices.y, indices.z});
     }
-    if (largest == no_index) is_any_missing = true;
+    return largest == no_index;
   });
-  return !is_any_missing;
 }
 
 /// Corners (3 * triangle + corner) in order of their position: those of position p are

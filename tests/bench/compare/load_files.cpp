@@ -64,11 +64,11 @@ std::optional<Path> make_terrain(const tracer::TemporaryFolder& folder) {
 
 constexpr LoadFile table[] = {
     {"bunny", "2.4 MB, v and f", true, 4, find_bunny},
-    {"12MB", "12 MB, 131,000 triangles of v/vt/vn", true, 1,
+    {"12MB", "12 MB, 131,000 triangles of v/vt/vn", true, 4,
      make_terrain<256, CornerContent::positions_texcoords_normals>},
-    {"100MB", "100 MB, 1.0 M triangles of v/vt/vn", false, 1,
+    {"100MB", "100 MB, 1.0 M triangles of v/vt/vn", false, 3,
      make_terrain<710, CornerContent::positions_texcoords_normals>},
-    {"400MB", "400 MB, 10 M triangles of v", false, 0.6,
+    {"400MB", "400 MB, 10 M triangles of v", false, 1,
      make_terrain<2236, CornerContent::positions>},
 };
 
