@@ -109,6 +109,27 @@ TEST(Collapse, has_the_cost_nodes_and_blocks_that_it_says_with_every_primitive_i
   }
 }
 
+TEST(Collapse, large_flat_parts_have_blocks_of_their_own) {
+  // A floor of two triangles, and small things on it.
+  LargeVector<Box> boxes(2, Box{Vec3f(-50, 0, -50), Vec3f(50, 0, 50)});
+  for (int i = 0; i < 20; ++i) {
+    const Vec3f corner(0.1f * static_cast<float>(i), 0, 0.03f * static_cast<float>(i % 7));
+    boxes.push_back({corner, corner + Vec3f(0.05f)});
+  }
+  for (const Builder& builder : builders()) {
+    const BvhTree tree = build(builder.name.data(), boxes, 2);
+    const Collapse collapse(tree, 16, Progress());
+    uint32_t floor_blocks = 0;
+    for (const uint32_t child : collapse.children_of(0)) {
+      const Box& bounds = tree.nodes[child].bounds;
+      if (bounds.max.x < 50) continue;
+      ++floor_blocks;
+      EXPECT_EQ(bounds.max.y, 0) << builder.name;
+    }
+    EXPECT_EQ(floor_blocks, 1u) << builder.name;
+  }
+}
+
 TEST(Collapse, is_alike_at_every_scale) {
   const auto boxes = primitive_boxes(random_soup(2000, 0.1f, 3));
   BvhTree tree = build("binned-sah", boxes, 4);

@@ -41,7 +41,8 @@ class Collapse {
   };
 
   /// `tree` is not empty; `width` is at most max_width and also that of a block. Subtrees of at
-  /// most `width` primitives become one block. Throws Cancelled.
+  /// most `width` primitives become one block, but for large flat parts, which rays
+  /// that leave them do not meet. Throws Cancelled.
   Collapse(const BvhTree& tree, uint32_t width, const Progress& progress);
 
   /// Of the root, and of every node that is a child of a wide node.
@@ -54,7 +55,12 @@ class Collapse {
   struct Forest;
 
   void plan(uint32_t node, PrimitiveRange range, Forest& forest);
-  void join(const Forest& left, const Forest& right, float area, Part& part, Forest& forest) const;
+  void plan_children(uint32_t node, PrimitiveRange range, Forest& left_forest,
+                     Forest& right_forest);
+  void join(const Forest& left, const Forest& right, Part& part, Forest& forest) const;
+  void stay_one_where_cheaper(Part& part, Forest& forest) const;
+  bool has_large_flat_part(uint32_t node) const;
+  float cost_of_block(uint32_t node) const;
   void add_children(uint32_t node, size_t child_count, Children& children) const;
   float area(uint32_t node) const;
   uint32_t first_primitive(uint32_t node) const;
