@@ -84,8 +84,8 @@ void warm_memory(size_t bytes) {
   munmap(memory, bytes);
 }
 
-/// Has all threads run for a while: the system may begin a new one on a core that is taken, and move
-/// it milliseconds later.
+/// Has all threads run for a while: the system may begin a new one on a core that is taken, and
+/// move it milliseconds later.
 void warm_threads() {
   tracer::parallel_workers([] {
     const app::Stopwatch stopwatch;
