@@ -188,6 +188,41 @@ TEST(NumericsTraversal, a_hit_at_the_end_of_the_interval_counts_and_beyond_it_do
   });
 }
 
+TEST(NumericsTraversal, any_hit_is_found_where_a_closest_one_is_for_rays_that_begin_or_end_at_one) {
+  const auto mesh = std::make_shared<const Mesh>(rough_ball(8, 0.1f, 62));
+  const BvhTree tree = build_tree(builders().front(), *mesh);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for_each_accel(mesh, tree, [&](const std::string& way, const Accel& accel) {
+    expect_in_all_trials("rays from and to hits, " + way, 62, trials(200, 20'000),
+                         [&](Trial& trial) {
+                           const StopFlag never;
+                           RayCaster caster(accel, never);
+                           std::vector<Ray> rays;
+                           for (Ray ray : probing_rays(*mesh, trial.index, trial.random)) {
+                             ray.t_min = 0;
+                             ray.t_max = infinity;
+                             const Hit hit = caster.closest_hit(ray);
+                             if (!hit.is_hit()) continue;
+                             const Vec3f origin = ray.origin;
+                             ray.origin = Vec3f(Vec3d(origin) + hit.t * Vec3d(ray.direction));
+                             rays.push_back(ray);  // to either side of the surface, or on it
+                             ray.t_min = 1e-60;    // 0 as a float
+                             rays.push_back(ray);
+                             ray.origin = origin;
+                             ray.t_min = std::nextafter(hit.t, infinity);
+                             rays.push_back(ray);
+                             const double part = trial.random.integer(-40, 40) * 0x1p-24;
+                             ray.t_min = 0;
+                             ray.t_max = hit.t * (1 + part);
+                             rays.push_back(ray);
+                           }
+                           std::vector<Hit> closest;
+                           for (const Ray& ray : rays) closest.push_back(caster.closest_hit(ray));
+                           check_answers(trial, accel, rays, closest);
+                         });
+  });
+}
+
 TEST(NumericsTraversal, rays_that_are_not_finite_hit_nothing_and_return) {
   constexpr float bad_values[] = {std::numeric_limits<float>::quiet_NaN(),
                                   std::numeric_limits<float>::infinity(),

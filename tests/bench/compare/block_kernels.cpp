@@ -151,8 +151,8 @@ TestRays PrepareDouble(const KernelBlock& block, std::span<const Ray> rays) {
 template <Slabs slabs>
 HWY_INLINE void meet_exactly(const float* rows, const WideTree::BlockInfo& info,
                              const ArrivingRay& arrival, Found& found) {
-  const auto hits = ExactLeaf::find<slabs, Flow::leaves_early>(
-      rows, info, arrival.constants, *arrival.ray, arrival.entry, arrival.t_far);
+  const auto hits = ExactLeaf::find<Query::closest_hit, slabs, Flow::leaves_early>(
+      rows, info, arrival.constants, *arrival.ray, arrival.entry, {arrival.t_far, -1});
   for (uint32_t bits = hits.possible; bits != 0; bits &= bits - 1) {
     const int lane = std::countr_zero(bits);
     const Hit hit = ExactLeaf::hit(rows, hits, lane, *arrival.ray);

@@ -110,11 +110,12 @@ struct MoellerTrumboreLeaf {
     alignas(64) float numerator[hn::MaxLanes(Floats())];
   };
 
-  template <Slabs slabs, Flow flow>
+  template <Query query, Slabs slabs, Flow flow>
   static HWY_INLINE Found find(const float* HWY_RESTRICT rows, const WideTree::BlockInfo& info,
-                               const RayConstants& c, const Ray& ray, float, float t_far) {
+                               const RayConstants& c, const Ray& ray, float,
+                               const HitRange& range) {
     const Floats d;
-    const auto met = meet_block(rows, c, ray, t_far);
+    const auto met = meet_block(rows, c, ray, range.t_far);
     Found found;
     found.possible = bits_of(met.is_hit) & filled_lanes(info);
     if constexpr (flow == Flow::leaves_early) {
@@ -144,14 +145,15 @@ struct MoellerTrumboreLeaf {
 
 /// The same where any hit will do: nothing is divided or kept.
 struct AnyMoellerTrumboreLeaf {
-  struct Found {
-    uint32_t possible;
-  };
+  using Found = FilteredHits;
 
-  template <Slabs slabs, Flow flow>
+  template <Query query, Slabs slabs, Flow flow>
   static HWY_INLINE Found find(const float* HWY_RESTRICT rows, const WideTree::BlockInfo& info,
-                               const RayConstants& c, const Ray& ray, float, float t_far) {
-    return {bits_of(meet_block(rows, c, ray, t_far).is_hit) & filled_lanes(info)};
+                               const RayConstants& c, const Ray& ray, float,
+                               const HitRange& range) {
+    const uint32_t hits =
+        bits_of(meet_block(rows, c, ray, range.t_far).is_hit) & filled_lanes(info);
+    return {hits, hits};
   }
   static HWY_INLINE Hit hit(const float* HWY_RESTRICT, const Found&, int, const Ray&) {
     return {.t = 0, .primitive = 0};

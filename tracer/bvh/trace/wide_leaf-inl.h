@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A float filter with a proved bound for a block of triangles: which of them a ray may hit.
-// docs/numerics.md derives the bound.
+// A float filter with a proved bound for a block of triangles: which of them a ray may hit, and,
+// where any hit will do, which it hits certainly. docs/numerics.md derives the bound.
 #if defined(TRACER_WIDE_LEAF_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRACER_WIDE_LEAF_INL_H
 #undef TRACER_WIDE_LEAF_INL_H
@@ -23,11 +23,17 @@ namespace HWY_NAMESPACE {
 /// straight on, so that the processor begins with the next ray's.
 enum class Flow { leaves_early, straight };
 
-/// Lanes of a block that the ray may hit: by the sheared edge functions [Woop 2013] of the
-/// float-rounded vertices, with `bound` at least their error.
-template <Slabs slabs, Flow flow>
-HWY_INLINE uint32_t hit_triangles(const float* HWY_RESTRICT block, const WideTree::BlockInfo& info,
-                                  const RayConstants& c, float entry, float t_far) {
+/// Lanes of a block: `certain` ones are among the `possible`, and none unless Query::occluded.
+struct FilteredHits {
+  uint32_t possible, certain;
+};
+
+/// What the ray may hit: by the sheared edge functions [Woop 2013] of the float-rounded vertices,
+/// with `bound` at least their error.
+template <Query query, Slabs slabs, Flow flow>
+HWY_INLINE FilteredHits filter_hits(const float* HWY_RESTRICT block,
+                                    const WideTree::BlockInfo& info, const RayConstants& c,
+                                    float entry, const HitRange& range) {
   const Floats d;
   const size_t width = hn::Lanes(d);
   // Both hold for every vertex of a leaf whose padded box the ray meets at `entry`. The same in all
@@ -74,7 +80,7 @@ HWY_INLINE uint32_t hit_triangles(const float* HWY_RESTRICT block, const WideTre
   const auto outside = hn::And(hn::Lt(low, negative), hn::Gt(high, bound));
   const uint32_t crossed = ~bits_of(outside) & filled;
   if constexpr (flow == Flow::leaves_early) {
-    if (HWY_LIKELY(crossed == 0)) return 0;
+    if (HWY_LIKELY(crossed == 0)) return {0, 0};
   }
   // What is hit lies at distance T / determinant along the largest component.
   const auto determinant = hn::Add(hn::Add(e0, e1), e2);
@@ -89,11 +95,19 @@ HWY_INLINE uint32_t hit_triangles(const float* HWY_RESTRICT block, const WideTre
                           : hn::Set(d, FLT_MIN));
   const auto least = hn::Sub(numerator, error);
   const auto most = hn::Add(numerator, error);
-  const float limit = t_far * c.largest_component;
+  const float limit = range.t_far * c.largest_component;
   const auto size_most = hn::MulAdd(bound, hn::Set(d, 3.25f), size);
   const auto beyond =
       hn::Or(hn::Gt(least, hn::Mul(hn::Set(d, limit), size_most)), hn::Lt(most, hn::Zero(d)));
-  return crossed & ~bits_of(beyond);
+  const uint32_t possible = crossed & ~bits_of(beyond);
+  // Rays with a moved origin are few.
+  if constexpr (query == Query::closest_hit || is_moved) return {possible, 0};
+
+  const auto is_inside = hn::Gt(hn::Max(low, hn::Neg(high)), bound);
+  const auto size_least = hn::NegMulAdd(bound, hn::Set(d, 3.25f), size);
+  const auto counts = hn::And(hn::Gt(least, hn::Zero(d)),
+                              hn::Lt(most, hn::Mul(hn::Set(d, range.certain_end), size_least)));
+  return {possible, possible & bits_of(hn::And(is_inside, counts))};
 }
 
 #endif

@@ -73,6 +73,24 @@ HWY_INLINE float stop_at(const RayConstants& c, double t) {
   return static_cast<float>(std::max(t - c.t_offset, 0.0)) * (1 + 12 * u) + FLT_MIN;
 }
 
+enum class Query { closest_hit, occluded };
+
+/// Where hits count.
+struct HitRange {
+  float t_far;  // as stop_at() gives it
+  // Query::occluded: hits before it certainly count, where those near the start do: a distance
+  // times the largest component, or less than 0.
+  float certain_end;
+};
+
+template <Query query>
+HWY_INLINE HitRange hit_range(const RayConstants& c, const Ray& ray) {
+  const float t_far = stop_at(c, ray.t_max);
+  if constexpr (query == Query::closest_hit) return {t_far, -1};
+  const float end = (t_far * (1 - 32 * u) - 2 * FLT_MIN) * c.largest_component;
+  return {t_far, ray.t_min <= 0 ? end : -1};
+}
+
 /// Rays from far away start for the filter where they come to the scene: its bounds grow with the
 /// distance. Returns the origin there.
 HWY_NOINLINE inline Vec3f move_origin(const WideTree& tree, const Ray& ray, RayConstants& c) {

@@ -93,7 +93,7 @@ class Stream {
 
   struct alignas(64) Slot {
     RayConstants constants;
-    float t_far;
+    HitRange range;
     float entry;
     WideChild current;
     uint32_t stack_size;
@@ -124,7 +124,7 @@ class Stream {
     const Ray& ray = rays_[next_];
     is_open_ = prepare(tree_, ray, slot.constants, TheseSlabs<slabs>());
     if (!is_open_) return;
-    slot.t_far = stop_at(slot.constants, ray.t_max);
+    slot.range = hit_range<query>(slot.constants, ray);
     slot.entry = slot.constants.t_min;
     slot.current = WideChild::node(0);
     slot.stack_size = 1;
@@ -176,7 +176,7 @@ class Stream {
     const UintLanes du;
     const float* node =
         rows_[0] + slot.current.index() * (WideTree::rows_a_node * hn::Lanes(Floats()));
-    const auto [near, is_near] = hit_slabs<slabs>(node, slot.constants, slot.t_far);
+    const auto [near, is_near] = hit_slabs<slabs>(node, slot.constants, slot.range.t_far);
     const auto is_hit = hn::RebindMask(du, is_near);
     const auto count = static_cast<uint32_t>(std::popcount(bits_of(is_near)));
     const auto distances = hn::BitCast(du, near);
@@ -217,15 +217,18 @@ class Stream {
     for (const uint8_t index : slots) {
       Slot& slot = slots_[index];
       const uint32_t block = slot.current.index();
-      slot.found = Leaf::template find<slabs, Flow::straight>(
+      slot.found = Leaf::template find<query, slabs, Flow::straight>(
           block_rows(block), tree_.block_infos[block], slot.constants, rays_[slot.ray], slot.entry,
-          slot.t_far);
-      candidates.add_if(slot.found.possible != 0, index);
+          slot.range);
+      bool is_asked = slot.found.possible != 0;
+      if constexpr (query == Query::occluded) is_asked &= slot.found.certain == 0;
+      candidates.add_if(is_asked, index);
     }
     test_exactly(candidates.take_all());
     for (const uint8_t index : slots) {
       Slot& slot = slots_[index];
-      const bool is_over = query == Query::occluded && slot.best.is_hit();
+      bool is_over = false;
+      if constexpr (query == Query::occluded) is_over = is_answered(slot);
       if (is_over) slot.stack_size = 1;
       if (HWY_LIKELY(is_over || tree_.block_infos[slot.current.index()].is_last)) {
         pop(index);
@@ -234,6 +237,14 @@ class Stream {
         at_leaf_.add_if(1, index);
       }
     }
+  }
+
+  HWY_INLINE bool is_answered(Slot& slot) const {
+    const uint32_t certain = slot.found.certain;
+    const int lane = std::countr_zero(certain | 1u << (hn::Lanes(Floats()) - 1));
+    const uint32_t primitive = primitive_in(block_rows(slot.current.index()), lane);
+    slot.best.primitive = certain != 0 ? primitive : slot.best.primitive;
+    return slot.best.is_hit();
   }
 
   void test_exactly(std::span<const uint8_t> slots) {
@@ -263,7 +274,7 @@ class Stream {
     if (!hit.is_hit() || !hit.is_closer_than(slot.best)) return;
     slot.best = hit;
     if constexpr (query == Query::occluded) return;
-    slot.t_far = std::min(slot.t_far, stop_at(slot.constants, hit.t));
+    slot.range.t_far = std::min(slot.range.t_far, stop_at(slot.constants, hit.t));
     slot.stack_size = cull(slot, stacks_[index]);
   }
 
@@ -271,7 +282,7 @@ class Stream {
   static uint32_t cull(const Slot& slot, StreamStack& stack) {
     const Floats d;
     const UintLanes du;
-    const auto t_far = hn::Set(d, slot.t_far);
+    const auto t_far = hn::Set(d, slot.range.t_far);
     const auto width = static_cast<uint32_t>(hn::Lanes(d));
     uint32_t kept = 0;
     for (uint32_t i = 0; i < slot.stack_size; i += width) {

@@ -47,8 +47,6 @@ inline bool CountOccluded(const WideTree&, const Ray&, const StopFlag&, Hit&, Vi
 
 #else
 
-enum class Query { closest_hit, occluded };
-
 constexpr int stack_capacity = max_tree_depth * 16;
 // Of one leaf, between two looks at the stop flag: some 10 microseconds.
 constexpr size_t blocks_a_look = 256;
@@ -170,6 +168,10 @@ struct CountingProbe {
   void exact_test() { ++counts.exact_tests; }
 };
 
+HWY_INLINE uint32_t primitive_in(const float* HWY_RESTRICT rows, int lane) {
+  return std::bit_cast<uint32_t>(rows[9 * hn::Lanes(Floats()) + static_cast<size_t>(lane)]);
+}
+
 /// Of the triangle in the lane that begins at `v`, of a block of `width` lanes; no hit for a miss.
 /// Not inlined: beside it the usual case would load one by one what it can broadcast from memory.
 HWY_NOINLINE inline Hit hit_exactly(const float* HWY_RESTRICT v, size_t width, const Ray& ray) {
@@ -238,14 +240,13 @@ HWY_INLINE void hit_together(std::span<const Candidate<Found> > candidates,
 
 /// The triangles of a block, decided exactly. Benchmarks traverse with leaves of other kinds.
 struct ExactLeaf {
-  struct Found {
-    uint32_t possible;  // lanes
-  };
+  using Found = FilteredHits;
 
-  template <Slabs slabs, Flow flow>
+  template <Query query, Slabs slabs, Flow flow>
   static HWY_INLINE Found find(const float* HWY_RESTRICT rows, const WideTree::BlockInfo& info,
-                               const RayConstants& c, const Ray&, float entry, float t_far) {
-    return {hit_triangles<slabs, flow>(rows, info, c, entry, t_far)};
+                               const RayConstants& c, const Ray&, float entry,
+                               const HitRange& range) {
+    return filter_hits<query, slabs, flow>(rows, info, c, entry, range);
   }
   /// Of a lane that is possible.
   static HWY_INLINE Hit hit(const float* HWY_RESTRICT rows, const Found&, int lane,
@@ -291,28 +292,35 @@ HWY_NOINLINE void traverse(const WideTree& tree, const Ray& ray, const RayConsta
   StackEntry stack[stack_capacity];
   StackEntry* top = stack;
   StackEntry current{WideChild::node(0), std::bit_cast<uint32_t>(constants.t_min)};
-  float t_far = stop_at(constants, ray.t_max);
+  HitRange range = hit_range<query>(constants, ray);
   for (;;) {
     while (!current.child.is_leaf()) {
       probe.node();
       const float* node = nodes + current.child.index() * (WideTree::rows_a_node * width);
-      if (descend<slabs, query == Query::closest_hit>(tree, node, constants, t_far, current, top))
+      if (descend<slabs, query == Query::closest_hit>(tree, node, constants, range.t_far, current,
+                                                      top))
         continue;
       do {
         if (top == stack) return;
         current = *--top;
-      } while (std::bit_cast<float>(current.entry) > t_far);
+      } while (std::bit_cast<float>(current.entry) > range.t_far);
     }
     const float entry = std::bit_cast<float>(current.entry);
-    if (entry <= t_far) {
+    if (entry <= range.t_far) {
       const size_t first_block = current.child.index();
       for (size_t block = first_block;; ++block) {
         if ((block - first_block) % blocks_a_look == blocks_a_look - 1 && stop.requested()) return;
         const WideTree::BlockInfo& info = infos[block];
         probe.block(info);
         const float* rows = blocks + block * (WideTree::rows_a_block * width);
-        const auto hits = Leaf::template find<slabs, Flow::leaves_early>(rows, info, constants, ray,
-                                                                         entry, t_far);
+        const auto hits = Leaf::template find<query, slabs, Flow::leaves_early>(
+            rows, info, constants, ray, entry, range);
+        if constexpr (query == Query::occluded) {
+          if (hits.certain != 0) {
+            best.primitive = primitive_in(rows, std::countr_zero(hits.certain));
+            return;
+          }
+        }
         for (uint32_t bits = hits.possible; bits != 0; bits &= bits - 1) {
           probe.exact_test();
           const Hit hit = Leaf::hit(rows, hits, std::countr_zero(bits), ray);
@@ -323,7 +331,7 @@ HWY_NOINLINE void traverse(const WideTree& tree, const Ray& ray, const RayConsta
           }
           if (hit.is_closer_than(best)) {
             keep<query>(hit, best);
-            t_far = std::min(t_far, stop_at(constants, hit.t));
+            range.t_far = std::min(range.t_far, stop_at(constants, hit.t));
           }
         }
         if (info.is_last) break;
@@ -332,7 +340,7 @@ HWY_NOINLINE void traverse(const WideTree& tree, const Ray& ray, const RayConsta
     do {
       if (top == stack) return;
       current = *--top;
-    } while (std::bit_cast<float>(current.entry) > t_far);
+    } while (std::bit_cast<float>(current.entry) > range.t_far);
   }
 }
 
