@@ -4,11 +4,9 @@
 #include <cstdint>
 #include <string>
 
+#include <stb_image.h>
 #include <sys/mman.h>
 #include <unistd.h>
-
-#define STB_IMAGE_IMPLEMENTATION
-#include <stb_image.h>
 
 #include "tests/fuzz/check_obj.h"
 #include "tracer/scene/jpeg_tables.h"

@@ -2,11 +2,13 @@
 // Tables that stb_image would write beyond its arrays for.
 #include "tracer/scene/jpeg_tables.h"
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include "tests/support/temporary_folder.h"
 #include "tracer/base/error.h"
@@ -67,6 +69,35 @@ TEST(JpegTables, a_faulty_table_makes_a_texture_an_error_in_words) {
   const auto sound = folder.write("sound.jpg", read_corpus_file("baseline.jpg"));
   EXPECT_EQ(load_texture(sound).width, 16);
 }
+
+#ifdef M_PERTURB
+/// The picture, or why there is none, read where fresh memory holds these bytes.
+std::string read_with_memory_of(unsigned char byte, const std::filesystem::path& path) {
+  mallopt(M_PERTURB, 0xff ^ byte);
+  std::string outcome;
+  try {
+    const Texture texture = load_texture(path);
+    outcome.assign(texture.codes.begin(), texture.codes.end());
+  } catch (const LoadError& error) {
+    outcome = error.what();
+  }
+  mallopt(M_PERTURB, 0);
+  return outcome;
+}
+
+TEST(JpegTables, what_uses_tables_that_it_never_defined_is_read_alike_whatever_was_in_memory) {
+  std::string jpeg = read_corpus_file("baseline.jpg");
+  for (size_t at = jpeg.find("\xff\xc4"); at != std::string::npos; at = jpeg.find("\xff\xc4")) {
+    const auto byte_at = [&](size_t i) { return static_cast<unsigned char>(jpeg.at(i)); };
+    jpeg.erase(at, 2 + size_t{256} * byte_at(at + 2) + byte_at(at + 3));
+  }
+  const TemporaryFolder folder;
+  const auto path = folder.write("undefined.jpg", jpeg);
+  const std::string outcome = read_with_memory_of(0, path);
+  EXPECT_EQ(read_with_memory_of(0xa5, path), outcome);
+  EXPECT_EQ(read_with_memory_of(0xff, path), outcome);
+}
+#endif
 
 }  // namespace
 }  // namespace tracer
