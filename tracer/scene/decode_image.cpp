@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tracer/scene/decode_image.h"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -13,6 +14,7 @@
 #include "tracer/scene/jpeg_tables.h"
 #include "tracer/scene/png_chunks.h"
 #include "tracer/scene/pnm_header.h"
+#include "tracer/scene/stb_growth.h"
 
 namespace tracer {
 namespace {
@@ -49,26 +51,42 @@ class StbDecoder {
         size_(static_cast<int>(bytes.size())) {}
 
   Texture decode(TexelEncoding encoding) const {
-    const int channel_count = check_header();
+    const Header header = check_header();
     if (stbi_is_hdr_from_memory(bytes_, size_)) return decode_float();
-    return decode_8_bit(channel_count, encoding);
+    return decode_8_bit(header, encoding);
   }
 
  private:
-  /// The channels to keep.
-  int check_header() const {
-    int width = 0, height = 0, channels = 0;
-    if (!stbi_info_from_memory(bytes_, size_, &width, &height, &channels)) fail_to_decode();
-    if (width < 1 || height < 1) fail("the image has no pixels");
-    if (int64_t{width} * height > max_texels) fail("the image has too many pixels");
-    return channels == 2 ? 4 : channels;
+  struct Header {
+    int width, height, channels;
+
+    /// 8 bytes a pixel and one a row hold all formats.
+    size_t most_bytes() const {
+      return (8 * static_cast<size_t>(width) + 1) * static_cast<size_t>(height);
+    }
+    int kept_channels() const { return channels == 2 ? 4 : channels; }
+  };
+
+  Header check_header() const {
+    Header header{};
+    if (!stbi_info_from_memory(bytes_, size_, &header.width, &header.height, &header.channels)) {
+      fail_to_decode();
+    }
+    if (header.width < 1 || header.height < 1) fail("the image has no pixels");
+    if (int64_t{header.width} * header.height > max_texels) fail("the image has too many pixels");
+    return header;
   }
 
-  Texture decode_8_bit(int channel_count, TexelEncoding encoding) const {
+  Texture decode_8_bit(const Header& header, TexelEncoding encoding) const {
+    const int channel_count = header.kept_channels();
     Texture texture;
     int in_file = 0;
+    // Blocks double until they hold the compressed bytes, and those that they unpack to.
+    const StbGrowthLimit limit(2 * std::max(header.most_bytes(), static_cast<size_t>(size_)) +
+                               4096);
     const DecodedPixels<stbi_uc> pixels(stbi_load_from_memory(
         bytes_, size_, &texture.width, &texture.height, &in_file, channel_count));
+    if (limit.is_reached()) fail("a damaged PNG: it unpacks to more than its pixels");
     if (!pixels) fail_to_decode();
     texture.channel_count = channel_count;
     texture.encoding = encoding;
